@@ -1,0 +1,63 @@
+//! Which side, and do they cross: exact answers on `f64` coordinates.
+
+use crate::geometry::Point2;
+
+/// Side of `c` as seen walking from `a` to `b`.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Side {
+    /// To the left: the three points turn counter-clockwise.
+    Left,
+    /// To the right.
+    Right,
+    /// Exactly on the line.
+    On,
+}
+
+/// On which side of the line `a`–`b` the point `c` lies, exactly.
+pub fn side(a: Point2, b: Point2, c: Point2) -> Side {
+    let coord = |p: Point2| robust::Coord { x: p.x, y: p.y };
+    let turn = robust::orient2d(coord(a), coord(b), coord(c));
+    if turn > 0.0 {
+        Side::Left
+    } else if turn < 0.0 {
+        Side::Right
+    } else {
+        Side::On
+    }
+}
+
+/// Whether the closed segments `a`–`b` and `c`–`d` share a point, exactly.
+pub fn segments_meet(a: Point2, b: Point2, c: Point2, d: Point2) -> bool {
+    let (sc, sd) = (side(a, b, c), side(a, b, d));
+    let (sa, sb) = (side(c, d, a), side(c, d, b));
+    let on_cd = |p, s| s == Side::On && in_box(c, d, p);
+    let on_ab = |p, s| s == Side::On && in_box(a, b, p);
+    if on_cd(a, sa) || on_cd(b, sb) || on_ab(c, sc) || on_ab(d, sd) {
+        return true;
+    }
+    let apart = |p: Side, q: Side| {
+        matches!((p, q), (Side::Left, Side::Right) | (Side::Right, Side::Left))
+    };
+    apart(sc, sd) && apart(sa, sb)
+}
+
+fn in_box(a: Point2, b: Point2, p: Point2) -> bool {
+    a.x.min(b.x) <= p.x
+        && p.x <= a.x.max(b.x)
+        && a.y.min(b.y) <= p.y
+        && p.y <= a.y.max(b.y)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn touching_segments_meet_and_parallel_ones_do_not() {
+        let p = Point2::new;
+        assert!(segments_meet(p(0.0, 0.0), p(2.0, 0.0), p(1.0, 0.0), p(1.0, 5.0)));
+        assert!(segments_meet(p(0.0, 0.0), p(2.0, 2.0), p(0.0, 2.0), p(2.0, 0.0)));
+        assert!(!segments_meet(p(0.0, 0.0), p(2.0, 0.0), p(0.0, 1.0), p(2.0, 1.0)));
+        assert!(!segments_meet(p(0.0, 0.0), p(1.0, 0.0), p(2.0, 0.0), p(3.0, 0.0)));
+    }
+}

@@ -1,0 +1,3 @@
+//! The `finwright` command.
+
+fn main() {}
