@@ -4,6 +4,7 @@
 //! questions of side and crossing go through exact predicates ([`predicates`]).
 
 pub mod contour;
+pub mod offset;
 pub mod predicates;
 pub mod trig;
 

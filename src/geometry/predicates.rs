@@ -41,6 +41,41 @@ pub fn segments_meet(a: Point2, b: Point2, c: Point2, d: Point2) -> bool {
     apart(sc, sd) && apart(sa, sb)
 }
 
+/// Whether a closed polygon neither crosses nor touches itself, exactly.
+pub fn is_simple(polygon: &[Point2]) -> bool {
+    let count = polygon.len();
+    let end = |k: usize| polygon[(k + 1) % count];
+    if count < 3 || (0..count).any(|k| polygon[k] == end(k)) {
+        return false;
+    }
+    let mut order: Vec<usize> = (0..count).collect();
+    let left = |k: usize| polygon[k].x.min(end(k).x);
+    order.sort_by(|&a, &b| left(a).total_cmp(&left(b)));
+    let mut open: Vec<usize> = Vec::new();
+    for &k in &order {
+        open.retain(|&other| polygon[other].x.max(end(other).x) >= left(k));
+        let clashes = open.iter().any(|&other| match () {
+            () if (other + 1) % count == k => {
+                folds_back(polygon[other], polygon[k], end(k))
+            }
+            () if (k + 1) % count == other => {
+                folds_back(polygon[k], polygon[other], end(other))
+            }
+            () => segments_meet(polygon[k], end(k), polygon[other], end(other)),
+        });
+        if clashes {
+            return false;
+        }
+        open.push(k);
+    }
+    true
+}
+
+/// Whether the way from `a` over `b` to `c` runs back over itself.
+fn folds_back(a: Point2, b: Point2, c: Point2) -> bool {
+    side(a, b, c) == Side::On && (b - a).dot(&(c - b)) < 0.0
+}
+
 fn in_box(a: Point2, b: Point2, p: Point2) -> bool {
     a.x.min(b.x) <= p.x
         && p.x <= a.x.max(b.x)
@@ -59,5 +94,14 @@ mod tests {
         assert!(segments_meet(p(0.0, 0.0), p(2.0, 2.0), p(0.0, 2.0), p(2.0, 0.0)));
         assert!(!segments_meet(p(0.0, 0.0), p(2.0, 0.0), p(0.0, 1.0), p(2.0, 1.0)));
         assert!(!segments_meet(p(0.0, 0.0), p(1.0, 0.0), p(2.0, 0.0), p(3.0, 0.0)));
+    }
+
+    #[test]
+    fn a_square_is_simple_and_a_bow_tie_is_not() {
+        let p = Point2::new;
+        let square = [p(0.0, 0.0), p(1.0, 0.0), p(1.0, 1.0), p(0.0, 1.0)];
+        let bow_tie = [p(0.0, 0.0), p(1.0, 1.0), p(1.0, 0.0), p(0.0, 1.0)];
+        assert!(is_simple(&square));
+        assert!(!is_simple(&bow_tie));
     }
 }

@@ -17,7 +17,8 @@ pub enum Operation {
 
 impl Operation {
     /// All operations in the order of work.
-    pub const ALL: [Self; 4] = [Self::Engrave, Self::Score, Self::CutInner, Self::CutOuter];
+    pub const ALL: [Self; 4] =
+        [Self::Engrave, Self::Score, Self::CutInner, Self::CutOuter];
 
     /// The layer this operation is drawn on.
     pub const fn layer(self) -> &'static str {

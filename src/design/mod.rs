@@ -1,0 +1,3 @@
+//! Designing structures: the embedded examples, each torsion-free by construction.
+
+pub mod examples;

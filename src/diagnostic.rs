@@ -1,0 +1,122 @@
+//! Findings: what is wrong, where, how far, and what to do about it.
+//!
+//! Each stage has an enum of what it can find; a variant is a fact with its numbers.
+//! `thiserror` writes the message, `miette` carries code, severity and help, and
+//! [`Located`] the place. [`Finding`] is their common, serialisable form.
+
+use miette::Diagnostic;
+use serde::Serialize;
+
+/// How bad a finding is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Severity {
+    /// Good to know.
+    Note,
+    /// The job can be cut, but look at it first.
+    Warning,
+    /// Nothing is cut while this stands.
+    Error,
+}
+
+/// Where something was found; empty fields do not apply.
+#[derive(Debug, Clone, Default, PartialEq, Serialize)]
+pub struct Place {
+    /// Nodes, counted from 0 as in the structure.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub nodes: Vec<usize>,
+    /// Fins, by their two nodes.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub fins: Vec<[usize; 2]>,
+    /// Faces of the base mesh, counted from 0.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub faces: Vec<usize>,
+    /// Strips of the structure, counted from 0.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub strips: Vec<usize>,
+    /// Parts, by their ids.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub parts: Vec<String>,
+    /// Line of the input file, counted from 1.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub line: Option<usize>,
+}
+
+impl Place {
+    /// At these nodes.
+    pub fn nodes(nodes: impl Into<Vec<usize>>) -> Self {
+        Self { nodes: nodes.into(), ..Self::default() }
+    }
+
+    /// In these fins.
+    pub fn fins(fins: impl Into<Vec<[usize; 2]>>) -> Self {
+        Self { fins: fins.into(), ..Self::default() }
+    }
+
+    /// In these faces.
+    pub fn faces(faces: impl Into<Vec<usize>>) -> Self {
+        Self { faces: faces.into(), ..Self::default() }
+    }
+
+    /// In this strip.
+    pub fn strip(strip: usize) -> Self {
+        Self { strips: vec![strip], ..Self::default() }
+    }
+
+    /// In this part.
+    pub fn part(part: impl Into<String>) -> Self {
+        Self { parts: vec![part.into()], ..Self::default() }
+    }
+
+    /// The same place, narrowed to a node.
+    #[must_use]
+    pub fn at(mut self, node: usize) -> Self {
+        self.nodes.push(node);
+        self
+    }
+}
+
+/// A fact that knows its place.
+pub trait Located {
+    /// Where it was found.
+    fn place(&self) -> Place;
+}
+
+/// One thing found, ready to be shown or written.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Finding {
+    /// How bad it is.
+    pub severity: Severity,
+    /// `stage::what_is_wrong`; never changes.
+    pub code: String,
+    /// What was found, with the numbers.
+    pub message: String,
+    /// What to do and which setting to touch.
+    pub help: String,
+    /// Where.
+    pub place: Place,
+}
+
+impl<F: Diagnostic + Located> From<F> for Finding {
+    fn from(fact: F) -> Self {
+        let text = |part: Option<Box<dyn std::fmt::Display + '_>>| {
+            part.map(|part| part.to_string()).unwrap_or_default()
+        };
+        Self {
+            severity: match fact.severity() {
+                Some(miette::Severity::Advice) => Severity::Note,
+                Some(miette::Severity::Warning) => Severity::Warning,
+                Some(miette::Severity::Error) | None => Severity::Error,
+            },
+            code: text(fact.code()),
+            message: fact.to_string(),
+            help: text(fact.help()),
+            place: fact.place(),
+        }
+    }
+}
+
+/// Whether nothing found forbids cutting.
+pub fn passes(findings: &[Finding]) -> bool {
+    findings.iter().all(|finding| finding.severity != Severity::Error)
+}

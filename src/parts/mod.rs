@@ -1,0 +1,211 @@
+//! From a structure in space to one flat part each.
+//!
+//! [`strips`] unfolds every strip, cuts the slits where strips cross, rounds and flares
+//! them, splices what is too long for the stock and writes on each part what the maker
+//! needs. Kerf is not its business, nor where parts lie on a sheet.
+
+mod finding;
+mod fit;
+mod joint;
+mod mark;
+mod outline;
+mod part;
+mod splice;
+mod strength;
+mod unfold;
+
+pub use finding::PartFinding;
+pub use fit::Fit;
+pub use joint::{End, Joinery, Joints, Opening, Slit, join};
+pub use mark::{FoldMarks, Marking};
+pub use outline::{Closure, Piece, outline};
+pub use part::{Body, Mark, MarkKind, Part, StripBody};
+pub use unfold::{FlatAxis, FlatStrip, Fold, unfold};
+
+use crate::geometry::{Point2, Region, predicates};
+use crate::structure::{Strip, Structure};
+use crate::tolerance::{ARC_SAGITTA_MM, SAME_FOLD};
+use splice::Whole;
+use std::collections::BTreeMap;
+use strength::Slitted;
+
+/// What parts are made for.
+pub struct Making<'a> {
+    /// What material and joint ask.
+    pub fit: &'a Fit,
+    /// How parts are marked.
+    pub marking: Marking,
+    /// Whether an outline fits some sheet of the stock.
+    pub fits: &'a dyn Fn(&[Point2]) -> bool,
+}
+
+/// Strips as parts.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Made {
+    /// The structure with its strips as they were cut: closed ones opened at their
+    /// smallest fold, those that would lie over themselves split.
+    pub structure: Structure,
+    /// The parts in the order of assembly.
+    pub parts: Vec<Part>,
+    /// Everything found on the way.
+    pub findings: Vec<PartFinding>,
+}
+
+/// Makes the parts of a structure whose strips are half-lapped.
+pub fn strips(structure: Structure, making: &Making) -> Made {
+    let (flat, mut split) = flat_strips(&structure);
+    let structure = structure.with_strips(flat.iter().map(chain).collect());
+    let (joinery, found) = join(&structure, &flat, making.fit);
+    for (strip, finding) in &mut split {
+        if let PartFinding::OverlapsItself { part, .. } = finding {
+            part.clone_from(&joinery.names[*strip]);
+        }
+    }
+    let mut findings: Vec<PartFinding> = split.into_iter().map(|(_, f)| f).collect();
+    findings.extend(found);
+    let mut parts = Vec::new();
+    for (rank, &strip) in joinery.order.iter().enumerate() {
+        let name = joinery.names[strip].as_str();
+        let (flat, joints) = (&flat[strip], &joinery.joints[strip]);
+        let slitted =
+            Slitted { name, strip: flat, slits: &joints.slits, fit: making.fit };
+        findings.extend(strength::weaknesses(&slitted));
+        let whole = Whole { name, strip: flat, joints, fit: making.fit };
+        let pieces = splice::pieces(&whole, making.fits).unwrap_or_else(|finding| {
+            findings.push(finding);
+            vec![whole.uncut()]
+        });
+        let seat = Seat { strip, rank, flat, making, name };
+        parts.extend(seat.parts(pieces));
+    }
+    name_partners(&mut parts, &joinery.names);
+    findings.extend(parts.iter().filter_map(crossing_outline));
+    Made { structure, parts, findings }
+}
+
+/// All strips unfolded; where one had to be split, a note about the first piece.
+fn flat_strips(structure: &Structure) -> (Vec<FlatStrip>, Vec<(usize, PartFinding)>) {
+    let mut flat = Vec::new();
+    let mut findings = Vec::new();
+    for (index, strip) in structure.strips().iter().enumerate() {
+        let chain = opened(structure, index, strip);
+        let (pieces, cuts) =
+            unfold::unfold_without_overlap(structure, &chain, strip.closed);
+        findings.extend(cuts.into_iter().map(|node| {
+            let part = String::new();
+            (flat.len(), PartFinding::OverlapsItself { part, node })
+        }));
+        flat.extend(pieces);
+    }
+    (flat, findings)
+}
+
+/// The nodes of a strip; a closed one begins and ends at its smallest fold. Where many
+/// are equal (rings of a dome), successive strips are opened in different places, so that
+/// no crossing strip loses all its joints.
+fn opened(structure: &Structure, index: usize, strip: &Strip) -> Vec<usize> {
+    if !strip.closed {
+        return strip.nodes.clone();
+    }
+    let count = strip.nodes.len();
+    let node = |k: usize| strip.nodes[k % count];
+    let fold = |k: usize| structure.fold(node(k + count - 1), node(k), node(k + 1)).abs();
+    let folds: Vec<f64> = (0..count).map(fold).collect();
+    let least = folds.iter().copied().fold(f64::INFINITY, f64::min);
+    let equal: Vec<usize> =
+        (0..count).filter(|&k| folds[k] <= least + SAME_FOLD).collect();
+    let stride = (equal.len() * 3 / 8).max(1);
+    let seam = equal[index * stride % equal.len()];
+    (seam..=seam + count).map(node).collect()
+}
+
+fn chain(flat: &FlatStrip) -> Strip {
+    let nodes = flat.axes.iter().map(|axis| axis.node);
+    let count = flat.axes.len() - usize::from(flat.closed);
+    Strip { nodes: nodes.take(count).collect(), closed: flat.closed }
+}
+
+/// A strip on its way to parts.
+struct Seat<'a> {
+    strip: usize,
+    rank: usize,
+    flat: &'a FlatStrip,
+    making: &'a Making<'a>,
+    name: &'a str,
+}
+
+impl Seat<'_> {
+    fn parts(&self, pieces: Vec<Piece>) -> Vec<Part> {
+        let count = pieces.len();
+        let mut first = 0;
+        let mut parts = Vec::new();
+        for (k, piece) in pieces.into_iter().enumerate() {
+            let id = match count {
+                1 => self.name.to_owned(),
+                _ => format!("{}{}", self.name, piece_letter(k)),
+            };
+            let axes = piece.axes.len();
+            parts.push(self.part(id, piece, first));
+            first += axes;
+        }
+        parts
+    }
+
+    fn part(&self, id: String, piece: Piece, first: usize) -> Part {
+        let all = &self.flat.axes;
+        let after = first + piece.axes.len();
+        let inner = (first.max(1)..after.min(all.len() - 1)).map(|k| k - 1);
+        let folds: Vec<Fold> = inner.map(|k| self.flat.folds[k]).collect();
+        let splice = |k: usize| [all[k - 1].node, all[k].node];
+        let left = (first > 0).then(|| splice(first));
+        let right = (after < all.len()).then(|| splice(after));
+        let marks = mark::marks(&piece, &id, &folds, self.making.marking);
+        let outline = outline(&piece, self.making.fit);
+        let body = StripBody {
+            strip: self.strip,
+            folds,
+            slits: piece.slits.values().map(|slit| (*slit, String::new())).collect(),
+            splices: left.into_iter().chain(right).collect(),
+            closed: self.flat.closed && left.is_none() && right.is_none(),
+            rank: self.rank,
+            axes: piece.axes,
+        };
+        let region = Region { outline, holes: Vec::new() };
+        Part { id, quantity: 1, region, marks, body: Body::Strip(body) }
+    }
+}
+
+/// a, b, ... z, aa, ab, ...
+fn piece_letter(k: usize) -> String {
+    let letter = char::from(b'a' + (k % 26) as u8);
+    if k < 26 {
+        letter.to_string()
+    } else {
+        format!("{}{letter}", piece_letter(k / 26 - 1))
+    }
+}
+
+/// Tells each slit which part comes into it: of a spliced strip, the piece at that node.
+fn name_partners(parts: &mut [Part], names: &[String]) {
+    let mut at: BTreeMap<(usize, usize), String> = BTreeMap::new();
+    for part in parts.iter() {
+        let Body::Strip(body) = &part.body;
+        at.extend(
+            body.slits.iter().map(|(s, _)| ((body.strip, s.node), part.id.clone())),
+        );
+    }
+    for part in parts {
+        let Body::Strip(body) = &mut part.body;
+        for (slit, partner) in &mut body.slits {
+            let piece = at.get(&(slit.partner, slit.node));
+            *partner = piece.unwrap_or(&names[slit.partner]).clone();
+        }
+    }
+}
+
+fn crossing_outline(part: &Part) -> Option<PartFinding> {
+    let Body::Strip(body) = &part.body;
+    let simple = predicates::is_simple(&part.region.outline.flattened(ARC_SAGITTA_MM));
+    let node = body.axes[0].node;
+    (!simple).then(|| PartFinding::OutlineCrossesItself { part: part.id.clone(), node })
+}

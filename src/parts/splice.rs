@@ -1,0 +1,203 @@
+//! Strips longer than every sheet, cut in two inside a fin and joined by a dovetail.
+//!
+//! The cut lies in the middle third of a fin, never at a node. The left piece carries the
+//! tail, the right piece the socket, wider by the clearance; kerf is compensated on both
+//! later, as on every edge.
+
+use crate::geometry::offset::{offset_chain, rounded};
+use crate::geometry::{Point2, Vector2, Vertex, trig};
+use crate::parts::finding::PartFinding;
+use crate::parts::fit::Fit;
+use crate::parts::joint::{End, Joints};
+use crate::parts::outline::{Closure, Piece, outline};
+use crate::parts::unfold::FlatStrip;
+use crate::tolerance::ARC_SAGITTA_MM;
+use std::f64::consts::PI;
+
+/// How far the flanks of the tail open, radians.
+const FLANK: f64 = 15.0 * PI / 180.0;
+
+/// A strip with its joints, ready to be cut into pieces.
+pub struct Whole<'a> {
+    /// Name for messages.
+    pub name: &'a str,
+    /// The flat strip.
+    pub strip: &'a FlatStrip,
+    /// Its slits and ends.
+    pub joints: &'a Joints,
+    /// What material and joint ask.
+    pub fit: &'a Fit,
+}
+
+/// The strip in as few pieces as `fits` allows (one, if it fits whole).
+///
+/// # Errors
+/// [`PartFinding::NoPlaceForSplice`] if no fin can take a splice where one is needed.
+pub fn pieces(
+    whole: &Whole,
+    fits: &dyn Fn(&[Point2]) -> bool,
+) -> Result<Vec<Piece>, PartFinding> {
+    let last = whole.strip.axes.len() - 1;
+    let fits = |cuts: [Option<usize>; 2]| {
+        let shape = outline(&whole.piece(cuts), whole.fit);
+        fits(&shape.flattened(ARC_SAGITTA_MM))
+    };
+    if fits([None, None]) {
+        return Ok(vec![whole.piece([None, None])]);
+    }
+    let places: Vec<usize> = (0..last).filter(|&fin| whole.tail(fin).is_some()).collect();
+    let cuts = fewest(&places, &fits).ok_or_else(|| whole.no_place())?;
+    let even = whole.evenly(&places, cuts.len());
+    let ends = |cuts: &[usize]| {
+        let inner = || cuts.iter().copied().map(Some);
+        let starts = std::iter::once(None).chain(inner());
+        let pairs: Vec<_> =
+            starts.zip(inner().chain([None])).map(|(a, b)| [a, b]).collect();
+        pairs
+    };
+    let even_fits =
+        even.windows(2).all(|w| w[0] < w[1]) && ends(&even).into_iter().all(fits);
+    let chosen = if even_fits { even } else { cuts };
+    Ok(ends(&chosen).into_iter().map(|cuts| whole.piece(cuts)).collect())
+}
+
+/// The fewest cuts, each as far along as the piece before it allows.
+fn fewest(
+    places: &[usize],
+    fits: &dyn Fn([Option<usize>; 2]) -> bool,
+) -> Option<Vec<usize>> {
+    let mut cuts: Vec<usize> = Vec::new();
+    loop {
+        let start = cuts.last().copied();
+        if fits([start, None]) {
+            return Some(cuts);
+        }
+        let later = places.iter().copied().filter(|&fin| start.is_none_or(|s| fin > s));
+        cuts.push(later.take_while(|&fin| fits([start, Some(fin)])).last()?);
+    }
+}
+
+/// Sizes of a tail in one fin.
+struct Tail {
+    /// From the bottom edge to the top edge.
+    cut: [Point2; 2],
+    /// From the neck to the end of the tail.
+    length: f64,
+    neck: f64,
+}
+
+impl Whole<'_> {
+    /// The strip in one piece.
+    pub fn uncut(&self) -> Piece {
+        self.piece([None, None])
+    }
+
+    /// The run of axes between two cut fins, with what is left of the joints.
+    fn piece(&self, [left, right]: [Option<usize>; 2]) -> Piece {
+        let first = left.map_or(0, |fin| fin + 1);
+        let last = right.unwrap_or(self.strip.axes.len() - 1);
+        let range = first..=last;
+        let slits = self.joints.slits.iter().filter(|(place, _)| range.contains(place));
+        let closure = |cut: Option<usize>, end: End, gap: f64| {
+            let splice = cut.and_then(|fin| self.dovetail(fin, gap));
+            splice.map_or(Closure::End(end), Closure::Splice)
+        };
+        let [start, finish] = self.joints.ends;
+        Piece {
+            axes: self.strip.axes[range.clone()].to_vec(),
+            slits: slits.map(|(place, slit)| (place - first, *slit)).collect(),
+            closures: [
+                closure(left, start, self.fit.clearance),
+                closure(right, finish, 0.0),
+            ],
+        }
+    }
+
+    /// Free run of a fin between its slits: where it starts and ends along the fin.
+    fn free_run(&self, fin: usize) -> [f64; 2] {
+        let length = (self.strip.axes[fin + 1].foot - self.strip.axes[fin].foot).norm();
+        let slit = |place: usize| self.joints.slits.get(&place);
+        [
+            slit(fin).map_or(0.0, |slit| slit.after),
+            length - slit(fin + 1).map_or(0.0, |slit| slit.before),
+        ]
+    }
+
+    fn needed(&self) -> f64 {
+        2.0 * self.fit.thickness + 4.0 * self.fit.web_least.max(self.fit.thickness / 2.0)
+    }
+
+    /// The tail that a fin has room for.
+    fn tail(&self, fin: usize) -> Option<Tail> {
+        let (a, b) = (self.strip.axes[fin], self.strip.axes[fin + 1]);
+        let length = (b.foot - a.foot).norm();
+        let [start, end] = self.free_run(fin);
+        let height = (a.below + a.above).min(b.below + b.above);
+        let needed = self.needed();
+        if end - start < needed || height < needed {
+            return None;
+        }
+        let tail = ((end - start) / 4.0).min(height / 4.0).max(self.fit.thickness);
+        let middle = (start + end) / 2.0;
+        let at = (middle.clamp(length / 3.0, length * 2.0 / 3.0) - tail / 2.0) / length;
+        let between = |p: Point2, q: Point2| p + (q - p) * at;
+        let cut = [between(a.bottom(), b.bottom()), between(a.top(), b.top())];
+        let neck = (height / 4.0).max(self.fit.thickness);
+        Some(Tail { cut, length: tail, neck })
+    }
+
+    /// The cut through a fin, moved to the right by `gap`.
+    fn dovetail(&self, fin: usize, gap: f64) -> Option<Vec<Vertex>> {
+        let tail = self.tail(fin)?;
+        let [from, to] = tail.cut;
+        let up = (to - from).normalize();
+        let right = Vector2::new(up.y, -up.x);
+        let height = (to - from).norm();
+        let head = tail.neck + 2.0 * tail.length * trig::tan(FLANK);
+        let place = |y: f64, x: f64| from + up * y + right * x;
+        let middle = height / 2.0;
+        let chain = [
+            from,
+            place(middle - tail.neck / 2.0, 0.0),
+            place(middle - head / 2.0, tail.length),
+            place(middle + head / 2.0, tail.length),
+            place(middle + tail.neck / 2.0, 0.0),
+            to,
+        ];
+        let mut moved = offset_chain(&chain, gap);
+        // The ends stay on the strip's edges.
+        let next = self.strip.axes[fin + 1];
+        for (end, edge) in [(0, next.bottom()), (5, next.top())] {
+            let run = (edge - chain[end]).dot(&right);
+            moved[end] = chain[end] + (edge - chain[end]) * (gap / run);
+        }
+        let radius = self.fit.relief.max(0.3);
+        // Arcs keep their centres: right turns at the neck shrink, left turns grow.
+        let (neck, tip) = ((radius - gap).max(0.0), (radius + gap).max(0.0));
+        Some(rounded(&moved, &[0.0, neck, tip, tip, neck, 0.0]))
+    }
+
+    /// Cuts at equal lengths.
+    fn evenly(&self, places: &[usize], count: usize) -> Vec<usize> {
+        let axes = &self.strip.axes;
+        let mut run = vec![0.0];
+        for pair in axes.windows(2) {
+            run.push(run[run.len() - 1] + (pair[1].foot - pair[0].foot).norm());
+        }
+        let total = run[run.len() - 1];
+        let middle = |fin: usize| (run[fin] + run[fin + 1]) / 2.0;
+        let nearest = |target: f64| {
+            let off = |fin: &usize| (middle(*fin) - target).abs();
+            places.iter().copied().min_by(|a, b| off(a).total_cmp(&off(b)))
+        };
+        let share = |k: usize| total * k as f64 / (count + 1) as f64;
+        (1..=count).filter_map(|k| nearest(share(k))).collect()
+    }
+
+    fn no_place(&self) -> PartFinding {
+        let axes = &self.strip.axes;
+        let length_mm = axes.windows(2).map(|w| (w[1].foot - w[0].foot).norm()).sum();
+        let part = self.name.to_owned();
+        PartFinding::NoPlaceForSplice { part, length_mm, needed_mm: self.needed() }
+    }
+}

@@ -1,0 +1,76 @@
+//! A structure as somebody wrote it down: nothing has been checked yet.
+
+use crate::geometry::{Point3, Vector3};
+
+/// What the readers make and [`Structure::new`](super::Structure::new) judges.
+/// Lengths are already millimetres at model scale.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Draft {
+    /// Name of the job.
+    pub name: String,
+    /// One per node.
+    pub positions: Vec<Point3>,
+    /// Direction of the node axis, one per node, of any length.
+    pub axes: Vec<Vector3>,
+    /// The base mesh: corners counter-clockwise seen from the `above` end.
+    pub faces: Vec<Vec<usize>>,
+    /// How far a fin reaches against its axes, one per node.
+    pub below: Vec<f64>,
+    /// How far a fin reaches along its axes, one per node.
+    pub above: Vec<f64>,
+    /// Pairs of nodes; `None`: every edge of the faces.
+    pub fins: Option<Vec<[usize; 2]>>,
+    /// Chains of nodes; `None`: straight on through the nodes.
+    pub strips: Option<Vec<Vec<usize>>>,
+    /// Nodes held by the ground; `None`: those on the boundary.
+    pub fixed: Option<Vec<usize>>,
+}
+
+impl Draft {
+    /// Sets one depth for all nodes.
+    #[must_use]
+    pub fn with_depth(mut self, below: f64, above: f64) -> Self {
+        self.below = vec![below; self.positions.len()];
+        self.above = vec![above; self.positions.len()];
+        self
+    }
+
+    /// The same with every length multiplied by `factor`.
+    #[must_use]
+    pub fn scaled(mut self, factor: f64) -> Self {
+        for position in &mut self.positions {
+            *position *= factor;
+        }
+        for depth in self.below.iter_mut().chain(&mut self.above) {
+            *depth *= factor;
+        }
+        self
+    }
+
+    /// The fins asked for, or every edge of the faces, each once with the smaller
+    /// node first, in order of first appearance.
+    pub fn fin_pairs(&self) -> Vec<[usize; 2]> {
+        if let Some(fins) = &self.fins {
+            return fins.iter().map(|&[i, j]| [i.min(j), i.max(j)]).collect();
+        }
+        let mut seen = std::collections::BTreeSet::new();
+        let edges = self.faces.iter().flat_map(|face| face_edges(face));
+        edges
+            .map(|(i, j)| [i.min(j), i.max(j)])
+            .filter(|&[i, j]| i != j && seen.insert([i, j]))
+            .collect()
+    }
+}
+
+/// The directed edges around a face.
+pub fn face_edges(face: &[usize]) -> impl Iterator<Item = (usize, usize)> + '_ {
+    face.iter().zip(face.iter().cycle().skip(1)).map(|(&i, &j)| (i, j))
+}
+
+/// The vector area of a polygon (Newell): its normal, as long as the area.
+pub fn area_vector(positions: &[Point3], face: &[usize]) -> Vector3 {
+    let twice: Vector3 = face_edges(face)
+        .map(|(i, j)| positions[i].coords.cross(&positions[j].coords))
+        .sum();
+    twice / 2.0
+}

@@ -1,0 +1,258 @@
+//! Everything that can be wrong with a structure.
+
+use crate::diagnostic::{Located, Place};
+use miette::Diagnostic;
+use thiserror::Error;
+
+/// A fact found in a draft or a structure.
+#[derive(Debug, Clone, PartialEq, Error, Diagnostic)]
+#[allow(missing_docs, reason = "each variant's message says what its fields are")]
+pub enum StructureFinding {
+    #[error("there is no fin: {nodes} nodes and {faces} faces were read")]
+    #[diagnostic(
+        code(structure::empty),
+        help("give a mesh with faces, or list `fins` between nodes")
+    )]
+    Empty { nodes: usize, faces: usize },
+
+    #[error("the {what} of node {node} is {value}, which is no finite number")]
+    #[diagnostic(
+        code(structure::not_finite),
+        help("repair the exporting program's output; every coordinate must be a number")
+    )]
+    NotFinite { node: usize, what: &'static str, value: f64 },
+
+    #[error("{count} {what} are given for {nodes} nodes")]
+    #[diagnostic(
+        code(structure::count_mismatch),
+        help("give one entry per node, in the order of `positions`")
+    )]
+    CountMismatch { what: &'static str, count: usize, nodes: usize },
+
+    #[error("{what} {index} names node {node}, but there are only {nodes} nodes")]
+    #[diagnostic(
+        code(structure::index_out_of_range),
+        help("nodes are counted from 0 in JSON and from 1 in OBJ")
+    )]
+    IndexOutOfRange { what: &'static str, index: usize, node: usize, nodes: usize },
+
+    #[error("the axis of node {node} has no length")]
+    #[diagnostic(
+        code(structure::zero_axis),
+        help("give every node a direction, or use `--axes normal`")
+    )]
+    ZeroAxis { node: usize },
+
+    #[error("no node axes were given; {nodes} axes were taken from vertex normals")]
+    #[diagnostic(
+        code(structure::axes_from_normals),
+        severity(Warning),
+        help(
+            "fins may not be planar: give axes as `vn`, or `--axes X,Y,Z` or \
+             `--axes point:X,Y,Z`, which make every fin planar"
+        )
+    )]
+    AxesFromNormals { nodes: usize },
+
+    #[error("node {node} lies {below} mm below and {above} mm above: no depth to cut")]
+    #[diagnostic(
+        code(structure::no_depth),
+        help("give a positive depth, for instance `--depth 20,20`")
+    )]
+    NoDepth { node: usize, below: f64, above: f64 },
+
+    #[error("face {face} {fault}")]
+    #[diagnostic(
+        code(structure::degenerate_face),
+        help("remove the face, or merge its corners in the modelling program")
+    )]
+    DegenerateFace { face: usize, fault: FaceFault },
+
+    #[error("faces {first} and {second} have the same corners")]
+    #[diagnostic(code(structure::duplicate_face), help("remove one of the two"))]
+    DuplicateFace { first: usize, second: usize },
+
+    #[error("{count} faces meet in the edge between nodes {} and {}", fin[0], fin[1])]
+    #[diagnostic(
+        code(structure::non_manifold_edge),
+        help("an edge may belong to two faces; remove or separate the others")
+    )]
+    NonManifoldEdge { fin: [usize; 2], count: usize },
+
+    #[error("faces {first} and {second} run the same way along their common edge")]
+    #[diagnostic(
+        code(structure::face_orientation),
+        severity(Warning),
+        help("turn one of them round (\"unify normals\") so that all look to one side")
+    )]
+    FaceOrientation { first: usize, second: usize },
+
+    #[error("face {face} looks against its node axes")]
+    #[diagnostic(
+        code(structure::face_against_axis),
+        severity(Warning),
+        help("turn the face round, or turn its axes, so that `above` is one side")
+    )]
+    FaceAgainstAxis { face: usize },
+
+    #[error("the structure falls into {pieces} pieces; one begins at node {node}")]
+    #[diagnostic(
+        code(structure::disconnected),
+        severity(Warning),
+        help("nothing joins the pieces; if that is not meant, merge their nodes")
+    )]
+    Disconnected { pieces: usize, node: usize },
+
+    #[error("{count} nodes have no fin, the first is node {node}")]
+    #[diagnostic(
+        code(structure::loose_node),
+        severity(Warning),
+        help("they are kept so that numbers stay the same, and take no part")
+    )]
+    LooseNode { node: usize, count: usize },
+
+    #[error("nodes {} and {} are {length} mm apart", fin[0], fin[1])]
+    #[diagnostic(
+        code(structure::short_fin),
+        help("merge the two nodes; a fin needs a length")
+    )]
+    ShortFin { fin: [usize; 2], length: f64 },
+
+    #[error("fin {}-{} is listed twice", fin[0], fin[1])]
+    #[diagnostic(code(structure::duplicate_fin), help("list each fin once"))]
+    DuplicateFin { fin: [usize; 2] },
+
+    #[error(
+        "the axis of node {node} runs along fin {}-{}: {angle_deg:.1}° between them",
+        fin[0], fin[1]
+    )]
+    #[diagnostic(
+        code(structure::axis_along_fin),
+        help("an axis must stand across its fins, by {least_deg:.0}° at least")
+    )]
+    AxisAlongFin { node: usize, fin: [usize; 2], angle_deg: f64, least_deg: f64 },
+
+    #[error(
+        "fin {}-{} is out of plane by {percent:.4} % of its diameter ({off_mm:.3} mm)",
+        fin[0], fin[1]
+    )]
+    #[diagnostic(
+        code(structure::fin_not_planar),
+        help(
+            "the limit is {limit_percent} % (`gate.planarity_limit_percent`); planarise the \
+             axes, or use `--axes X,Y,Z` or `--axes point:X,Y,Z`"
+        )
+    )]
+    FinNotPlanar { fin: [usize; 2], percent: f64, off_mm: f64, limit_percent: f64 },
+
+    #[error(
+        "fin {}-{} is slightly out of plane: {percent:.4} % of its diameter ({off_mm:.3} mm)",
+        fin[0], fin[1]
+    )]
+    #[diagnostic(
+        code(structure::fin_warped),
+        severity(Warning),
+        help("the sheet will take it up; planarise for an exact fit")
+    )]
+    FinWarped { fin: [usize; 2], percent: f64, off_mm: f64 },
+
+    #[error("the node axes of fin {}-{} meet inside the fin", fin[0], fin[1])]
+    #[diagnostic(
+        code(structure::axes_cross_in_fin),
+        help(
+            "reduce the depth to at most {share_percent:.0} % of what it is (`--depth`), or \
+             turn axes that point the wrong way"
+        )
+    )]
+    AxesCrossInFin { fin: [usize; 2], share_percent: f64 },
+
+    #[error(
+        "fins {}-{} and {}-{} cut through each other away from their nodes",
+        first[0], first[1], second[0], second[1]
+    )]
+    #[diagnostic(
+        code(structure::fins_cross),
+        help("reduce the depth, or move the nodes apart")
+    )]
+    FinsCross { first: [usize; 2], second: [usize; 2] },
+
+    #[error("strip {strip} steps from node {} to node {}, where no fin is", step[0], step[1])]
+    #[diagnostic(
+        code(structure::strip_without_fin),
+        help("list the nodes of a strip in the order of its fins")
+    )]
+    StripWithoutFin { strip: usize, step: [usize; 2] },
+
+    #[error("fin {}-{} is on {count} strips", fin[0], fin[1])]
+    #[diagnostic(
+        code(structure::fin_not_on_one_strip),
+        help("each fin belongs to one strip; leave `strips` out to have them traced")
+    )]
+    FinNotOnOneStrip { fin: [usize; 2], count: usize },
+
+    #[error("strip {strip} meets itself at node {node}")]
+    #[diagnostic(
+        code(structure::strip_meets_itself),
+        help("a strip that crosses itself cannot be put together; split it")
+    )]
+    StripMeetsItself { strip: usize, node: usize },
+
+    #[error(
+        "strip {strip} would meet itself at node {meets}; it is split at node {node}"
+    )]
+    #[diagnostic(
+        code(structure::strip_split),
+        severity(Advice),
+        help("a strip that crosses itself cannot be put together")
+    )]
+    StripSplit { strip: usize, meets: usize, node: usize },
+}
+
+/// What is wrong with a face.
+#[derive(Debug, Clone, PartialEq, Error)]
+#[allow(missing_docs, reason = "the messages say it")]
+pub enum FaceFault {
+    #[error("has {count} corners")]
+    TooFewCorners { count: usize },
+    #[error("comes to node {node} twice")]
+    RepeatedNode { node: usize },
+    #[error("has an area of {area_mm2} mm²")]
+    NoArea { area_mm2: f64 },
+}
+
+impl Located for StructureFinding {
+    fn place(&self) -> Place {
+        match *self {
+            Self::Empty { .. }
+            | Self::CountMismatch { .. }
+            | Self::AxesFromNormals { .. } => Place::default(),
+            Self::IndexOutOfRange { what: "face", index, .. } => Place::faces([index]),
+            Self::IndexOutOfRange { what: "strip", index, .. } => Place::strip(index),
+            Self::IndexOutOfRange { .. } => Place::default(),
+            Self::NotFinite { node, .. }
+            | Self::ZeroAxis { node }
+            | Self::NoDepth { node, .. }
+            | Self::Disconnected { node, .. }
+            | Self::LooseNode { node, .. } => Place::nodes([node]),
+            Self::DegenerateFace { face, .. } | Self::FaceAgainstAxis { face } => {
+                Place::faces([face])
+            }
+            Self::DuplicateFace { first, second }
+            | Self::FaceOrientation { first, second } => Place::faces([first, second]),
+            Self::AxisAlongFin { node, fin, .. } => Place::fins([fin]).at(node),
+            Self::NonManifoldEdge { fin, .. }
+            | Self::ShortFin { fin, .. }
+            | Self::DuplicateFin { fin }
+            | Self::FinNotPlanar { fin, .. }
+            | Self::FinWarped { fin, .. }
+            | Self::AxesCrossInFin { fin, .. }
+            | Self::FinNotOnOneStrip { fin, .. } => Place::fins([fin]),
+            Self::FinsCross { first, second } => Place::fins([first, second]),
+            Self::StripWithoutFin { strip, step } => {
+                Place::strip(strip).at(step[0]).at(step[1])
+            }
+            Self::StripMeetsItself { strip, node }
+            | Self::StripSplit { strip, node, .. } => Place::strip(strip).at(node),
+        }
+    }
+}

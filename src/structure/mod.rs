@@ -1,0 +1,174 @@
+//! The structure: nodes with axes, planar fins between them, strips of fins.
+//!
+//! A *torsion-free support structure* has a node axis in every vertex of a base mesh
+//! and a planar fin on every edge that contains the axes of both its ends
+//! ("Freeform Shading and Lighting Systems from Planar Quads"). [`Structure::new`] judges a
+//! [`Draft`] whole and either makes a [`Structure`] or says everything that is wrong.
+//! Reading and writing files' text is here too; touching files is not.
+
+mod check;
+mod crossing;
+mod draft;
+mod finding;
+mod json;
+mod node;
+mod obj;
+mod strips;
+
+pub use check::planarity;
+pub use crossing::FinGrid;
+pub use draft::{Draft, area_vector, face_edges};
+pub use finding::{FaceFault, StructureFinding};
+pub use json::{ReadError, read_json, write_json};
+pub use node::{Arm, Node};
+pub use obj::{AxisRule, ObjOptions, read_obj, write_obj};
+pub use strips::Strip;
+
+use crate::diagnostic::{Finding, passes};
+use crate::geometry::{Point3, Vector3};
+use crate::tolerance::Tolerance;
+use std::collections::BTreeMap;
+use thiserror::Error;
+
+/// A torsion-free support structure, mm at model scale.
+///
+/// # Guarantees
+/// All numbers are finite, all indices in range, axes have unit length, no fin is
+/// listed twice, every fin lies on exactly one strip, and no strip visits a node twice
+/// (but for the seam of a closed one).
+#[derive(Debug, Clone, PartialEq)]
+pub struct Structure {
+    name: String,
+    nodes: Vec<Node>,
+    faces: Vec<Vec<usize>>,
+    fins: Vec<[usize; 2]>,
+    strips: Vec<Strip>,
+    fixed: Vec<usize>,
+}
+
+/// A draft that is no structure.
+#[derive(Debug, Clone, PartialEq, Error)]
+#[error("the structure has faults that must be mended first")]
+pub struct Refused {
+    /// Everything found, worst or not.
+    pub findings: Vec<Finding>,
+}
+
+impl Structure {
+    /// Judges a draft.
+    ///
+    /// # Errors
+    /// [`Refused`] with all findings if one of them leaves no structure to speak of.
+    /// Faults of shape (fins out of plane, crossing, ...) do not: they are returned as
+    /// findings beside the structure, so that it can still be looked at.
+    pub fn new(
+        draft: Draft,
+        tolerance: &Tolerance,
+    ) -> Result<(Self, Vec<Finding>), Refused> {
+        let mut findings = collect(check::numbers(&draft));
+        if passes(&findings) {
+            findings.extend(collect(check::mesh(&draft)));
+        }
+        if !passes(&findings) {
+            return Err(Refused { findings });
+        }
+        let (structure, traced) = Self::build(draft, tolerance);
+        findings.extend(collect(traced));
+        if !passes(&findings) {
+            return Err(Refused { findings });
+        }
+        findings.extend(collect(check::shape(&structure, tolerance)));
+        findings.extend(collect(crossing::fins_that_cross(&structure)));
+        Ok((structure, findings))
+    }
+
+    fn build(draft: Draft, tolerance: &Tolerance) -> (Self, Vec<StructureFinding>) {
+        let fins = draft.fin_pairs();
+        let boundary = boundary_nodes(&draft.faces, draft.positions.len());
+        let nodes = node::join(&draft, &fins);
+        let fixed = match draft.fixed {
+            Some(fixed) => fixed,
+            None => (0..nodes.len()).filter(|&node| boundary[node]).collect(),
+        };
+        let (strips, findings) = match draft.strips {
+            Some(chains) => strips::given(&chains, &fins),
+            None => (strips::traced(&nodes, &boundary, tolerance), Vec::new()),
+        };
+        let (strips, split) = strips::without_self_meetings(strips, &nodes);
+        let findings = findings.into_iter().chain(split).collect();
+        let faces = draft.faces;
+        (Self { name: draft.name, nodes, faces, fins, strips, fixed }, findings)
+    }
+
+    /// Name of the job.
+    pub fn name(&self) -> &str {
+        &self.name
+    }
+
+    /// The nodes, as numbered in the input.
+    pub fn nodes(&self) -> &[Node] {
+        &self.nodes
+    }
+
+    /// The faces of the base mesh.
+    pub fn faces(&self) -> &[Vec<usize>] {
+        &self.faces
+    }
+
+    /// The fins, each by its two nodes, the smaller one first.
+    pub fn fins(&self) -> &[[usize; 2]] {
+        &self.fins
+    }
+
+    /// The strips; every fin is on one.
+    pub fn strips(&self) -> &[Strip] {
+        &self.strips
+    }
+
+    /// Nodes held by the ground.
+    pub fn fixed(&self) -> &[usize] {
+        &self.fixed
+    }
+
+    /// The corners of the fin from `i` to `j`: bottom of `i`, bottom of `j`, top of `j`,
+    /// top of `i`.
+    pub fn corners(&self, [i, j]: [usize; 2]) -> [Point3; 4] {
+        let (a, b) = (&self.nodes[i], &self.nodes[j]);
+        [a.bottom(), b.bottom(), b.top(), a.top()]
+    }
+
+    /// The same structure with other strips.
+    #[must_use]
+    pub fn with_strips(self, strips: Vec<Strip>) -> Self {
+        Self { strips, ..self }
+    }
+
+    /// Signed turn at `at` from the fin `from`-`at` to the fin `at`-`to`, radians:
+    /// positive toward travel × axis (contract §3).
+    pub fn fold(&self, from: usize, at: usize, to: usize) -> f64 {
+        strips::fold(&self.nodes, [from, at, to])
+    }
+
+    /// Direction of a fin at one of its ends, across the node axis, of unit length.
+    pub fn direction(&self, at: usize, to: usize) -> Vector3 {
+        node::across(&self.nodes[at], self.nodes[to].position)
+    }
+}
+
+fn collect(facts: Vec<StructureFinding>) -> Vec<Finding> {
+    facts.into_iter().map(Finding::from).collect()
+}
+
+/// Whether each node is an end of an edge with one face only.
+fn boundary_nodes(faces: &[Vec<usize>], nodes: usize) -> Vec<bool> {
+    let mut uses: BTreeMap<[usize; 2], usize> = BTreeMap::new();
+    for (i, j) in faces.iter().flat_map(|face| face_edges(face)) {
+        *uses.entry([i.min(j), i.max(j)]).or_default() += 1;
+    }
+    let mut boundary = vec![false; nodes];
+    for (&[i, j], _) in uses.iter().filter(|&(_, &count)| count == 1) {
+        boundary[i] = true;
+        boundary[j] = true;
+    }
+    boundary
+}

@@ -1,0 +1,229 @@
+//! Structures as OBJ: `v` node positions, `vn` node axes, polygons as faces.
+//!
+//! Read by our own few lines: `tobj` renumbers vertices in order of use, drops those
+//! without a face and has no line numbers, while node numbers are engraved on our parts
+//! (docs/decisions/0003). A test holds the two readers against each other.
+
+use crate::geometry::{Point3, Vector3};
+use crate::structure::draft::{Draft, area_vector};
+use crate::structure::finding::StructureFinding;
+use crate::structure::json::ReadError;
+use crate::units::Unit;
+
+/// Where node axes come from.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum AxisRule {
+    /// From the file's `vn`; from vertex normals if there is none.
+    File,
+    /// From vertex normals, weighted by area.
+    Normal,
+    /// All parallel to this direction.
+    Parallel(Vector3),
+    /// All through this point (in the file's units), pointing away from it.
+    Through(Point3),
+}
+
+/// How to read an OBJ file.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ObjOptions {
+    /// Unit of its numbers.
+    pub unit: Unit,
+    /// Where node axes come from.
+    pub axes: AxisRule,
+}
+
+/// Faces and vertices as the file has them.
+#[derive(Default)]
+struct Mesh {
+    positions: Vec<Point3>,
+    normals: Vec<Vector3>,
+    faces: Vec<Vec<usize>>,
+    axes: Vec<Option<Vector3>>,
+}
+
+/// Reads a mesh as a structure in millimetres, each side of a fin 0.35 of the median
+/// fin length deep (contract §2).
+///
+/// # Errors
+/// [`ReadError`] with the line at fault.
+pub fn read_obj(
+    text: &str,
+    options: &ObjOptions,
+) -> Result<(Draft, Vec<StructureFinding>), ReadError> {
+    let mut mesh = Mesh::default();
+    for (number, line) in logical_lines(text) {
+        mesh.take(number, &line, options.axes)?;
+    }
+    let (axes, findings) = axes(&mesh, options.axes)?;
+    let draft =
+        Draft { positions: mesh.positions, axes, faces: mesh.faces, ..Draft::default() };
+    let mut draft = draft.scaled(options.unit.millimetres());
+    let depth = 0.35 * median_fin_length(&draft);
+    draft = draft.with_depth(depth, depth);
+    Ok((draft, findings))
+}
+
+/// Lines without comments, `\` at the end joining the next, numbered from 1.
+fn logical_lines(text: &str) -> impl Iterator<Item = (usize, String)> + '_ {
+    let mut lines = text.lines().enumerate();
+    std::iter::from_fn(move || {
+        let (index, first) = lines.next()?;
+        let mut line = first.split('#').next().unwrap_or_default().trim_end().to_owned();
+        while line.ends_with('\\') {
+            line.pop();
+            line.push(' ');
+            line.push_str(lines.next().map_or("", |(_, more)| more.trim_end()));
+        }
+        Some((index + 1, line))
+    })
+}
+
+impl Mesh {
+    fn take(&mut self, line: usize, text: &str, rule: AxisRule) -> Result<(), ReadError> {
+        let mut words = text.split_whitespace();
+        match words.next() {
+            Some("v") => self.positions.push(Point3::from(vector(line, words)?)),
+            Some("vn") => self.normals.push(vector(line, words)?),
+            Some("f") => self.face(line, words, rule)?,
+            _ => {}
+        }
+        Ok(())
+    }
+
+    fn face<'a>(
+        &mut self,
+        line: usize,
+        words: impl Iterator<Item = &'a str>,
+        rule: AxisRule,
+    ) -> Result<(), ReadError> {
+        let mut face = Vec::new();
+        for word in words {
+            let mut fields = word.split('/');
+            let node = index(line, fields.next(), self.positions.len())?;
+            let normal = fields.nth(1).filter(|field| !field.is_empty());
+            if let (AxisRule::File, Some(normal)) = (rule, normal) {
+                let axis = self.normals[index(line, Some(normal), self.normals.len())?];
+                self.axes.resize(self.positions.len(), None);
+                match self.axes[node] {
+                    Some(other) if !parallel(other, axis) => {
+                        return Err(ReadError::ConflictingAxes { line, node });
+                    }
+                    _ => self.axes[node] = Some(axis),
+                }
+            }
+            face.push(node);
+        }
+        self.faces.push(face);
+        Ok(())
+    }
+}
+
+fn vector<'a>(
+    line: usize,
+    mut words: impl Iterator<Item = &'a str>,
+) -> Result<Vector3, ReadError> {
+    let mut number = || {
+        let word = words.next().unwrap_or("nothing");
+        word.parse::<f64>().map_err(|_| ReadError::BadObj {
+            line,
+            message: format!("three numbers are needed, found {word:?}"),
+        })
+    };
+    Ok(Vector3::new(number()?, number()?, number()?))
+}
+
+/// An index as OBJ counts: from 1, or backward from the newest if negative.
+fn index(line: usize, word: Option<&str>, count: usize) -> Result<usize, ReadError> {
+    let word = word.unwrap_or_default();
+    let bad = |message: String| ReadError::BadObj { line, message };
+    let number: i64 =
+        word.parse().map_err(|_| bad(format!("{word:?} is no vertex number")))?;
+    let from_start = if number < 0 { count as i64 + number } else { number - 1 };
+    usize::try_from(from_start).ok().filter(|&index| index < count).ok_or_else(|| {
+        bad(format!("number {number} is used, but {count} were given so far"))
+    })
+}
+
+/// Whether two `vn` mean the same axis; exporters round them differently.
+fn parallel(a: Vector3, b: Vector3) -> bool {
+    let lengths = a.norm() * b.norm();
+    a.dot(&b) > 0.0 && a.cross(&b).norm() <= 1e-4 * lengths || a == b
+}
+
+fn axes(
+    mesh: &Mesh,
+    rule: AxisRule,
+) -> Result<(Vec<Vector3>, Vec<StructureFinding>), ReadError> {
+    let nodes = mesh.positions.len();
+    match rule {
+        AxisRule::Parallel(direction) => Ok((vec![direction; nodes], Vec::new())),
+        AxisRule::Through(point) => {
+            Ok((mesh.positions.iter().map(|p| p - point).collect(), Vec::new()))
+        }
+        AxisRule::File if mesh.axes.iter().any(Option::is_some) => given_axes(mesh),
+        AxisRule::File | AxisRule::Normal => {
+            Ok((normals(mesh), vec![StructureFinding::AxesFromNormals { nodes }]))
+        }
+    }
+}
+
+/// The file's axes; every node of a face must have one.
+fn given_axes(mesh: &Mesh) -> Result<(Vec<Vector3>, Vec<StructureFinding>), ReadError> {
+    let nodes = mesh.positions.len();
+    let axis = |node: usize| mesh.axes.get(node).copied().flatten();
+    let corners: std::collections::BTreeSet<usize> =
+        mesh.faces.iter().flatten().copied().collect();
+    let mut missing = corners.iter().copied().filter(|&node| axis(node).is_none());
+    if let Some(node) = missing.next() {
+        let missing = 1 + missing.count();
+        return Err(ReadError::MissingAxes { missing, nodes, node });
+    }
+    // A vertex without a face takes no part; any direction will do.
+    Ok(((0..nodes).map(|node| axis(node).unwrap_or(Vector3::z())).collect(), Vec::new()))
+}
+
+fn normals(mesh: &Mesh) -> Vec<Vector3> {
+    let mut normals = vec![Vector3::zeros(); mesh.positions.len()];
+    let mut in_a_face = vec![false; normals.len()];
+    for face in &mesh.faces {
+        let area = area_vector(&mesh.positions, face);
+        for &node in face {
+            normals[node] += area;
+            in_a_face[node] = true;
+        }
+    }
+    let loose = |(normal, in_a_face): (Vector3, bool)| {
+        if in_a_face { normal } else { Vector3::z() }
+    };
+    normals.into_iter().zip(in_a_face).map(loose).collect()
+}
+
+fn median_fin_length(draft: &Draft) -> f64 {
+    let mut lengths: Vec<f64> = draft
+        .fin_pairs()
+        .iter()
+        .map(|&[i, j]| (draft.positions[i] - draft.positions[j]).norm())
+        .collect();
+    lengths.sort_by(f64::total_cmp);
+    lengths.get(lengths.len() / 2).copied().unwrap_or(1.0)
+}
+
+/// Writes nodes, axes and faces as OBJ in millimetres.
+pub fn write_obj(structure: &crate::structure::Structure) -> String {
+    let mut text = format!("# {} (mm), vn = node axis\n", structure.name());
+    let mut row = |key: &str, [x, y, z]: [f64; 3]| {
+        text.push_str(&format!("{key} {x} {y} {z}\n"));
+    };
+    for node in structure.nodes() {
+        row("v", node.position.coords.into());
+    }
+    for node in structure.nodes() {
+        row("vn", node.axis.into());
+    }
+    for face in structure.faces() {
+        let corners: Vec<String> =
+            face.iter().map(|node| format!("{0}//{0}", node + 1)).collect();
+        text.push_str(&format!("f {}\n", corners.join(" ")));
+    }
+    text
+}
