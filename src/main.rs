@@ -1,3 +1,8 @@
 //! The `finwright` command.
 
-fn main() {}
+use clap::Parser;
+use std::process::ExitCode;
+
+fn main() -> ExitCode {
+    finwright::cli::run(finwright::cli::Cli::parse())
+}

@@ -1,0 +1,137 @@
+//! Job directories: written whole or not at all.
+
+use miette::Diagnostic;
+use std::fs;
+use std::io;
+use std::path::{Path, PathBuf};
+use thiserror::Error;
+
+/// A file of a job.
+pub struct JobFile {
+    /// Path inside the job directory, with `/`.
+    pub path: String,
+    /// What is in it.
+    pub bytes: Vec<u8>,
+}
+
+/// Why a job directory could not be written.
+#[derive(Debug, Error, Diagnostic)]
+#[allow(missing_docs, reason = "the messages say it")]
+pub enum JobDirError {
+    #[error("{} is there already and was not written by finwright", dir.display())]
+    #[diagnostic(
+        code(job::foreign_directory),
+        help("it was left as it is; choose another folder with `-o`")
+    )]
+    Foreign { dir: PathBuf },
+
+    #[error("{} could not be written: {source}", path.display())]
+    #[diagnostic(code(job::disk), help("nothing was changed in the job's folder"))]
+    Disk { path: PathBuf, source: io::Error },
+}
+
+/// Writes a job beside its place and then puts it there, replacing an older job.
+///
+/// # Errors
+/// [`JobDirError`]; then the place is as it was.
+pub fn write(dir: &Path, files: &[JobFile]) -> Result<(), JobDirError> {
+    if !may_be_replaced(dir) {
+        return Err(JobDirError::Foreign { dir: dir.to_owned() });
+    }
+    let name = dir.file_name().unwrap_or_default().to_string_lossy().into_owned();
+    let beside = |suffix: &str| dir.with_file_name(format!(".{name}.{suffix}"));
+    let process = std::process::id();
+    let new = beside(&format!("new-{process}"));
+    let old = beside(&format!("old-{process}"));
+    let written = write_files(&new, files).and_then(|()| swap(dir, &new, &old));
+    if written.is_err() {
+        // Best effort: the error that counts is the first one.
+        let _ = fs::remove_dir_all(&new);
+    }
+    written
+}
+
+/// Whether nothing is there, or an empty folder, or a job of ours.
+fn may_be_replaced(dir: &Path) -> bool {
+    if !dir.exists() && !dir.is_symlink() {
+        return true;
+    }
+    if dir.is_symlink() || !dir.is_dir() {
+        return false;
+    }
+    let ours = fs::read_to_string(dir.join("job.json"))
+        .ok()
+        .and_then(|text| serde_json::from_str::<serde_json::Value>(&text).ok())
+        .is_some_and(|job| job["format"] == "finwright-job");
+    ours || fs::read_dir(dir).is_ok_and(|mut entries| entries.next().is_none())
+}
+
+fn write_files(new: &Path, files: &[JobFile]) -> Result<(), JobDirError> {
+    let disk = |path: &Path| {
+        let path = path.to_owned();
+        move |source| JobDirError::Disk { path, source }
+    };
+    for file in files {
+        let path = new.join(&file.path);
+        if let Some(folder) = path.parent() {
+            fs::create_dir_all(folder).map_err(disk(folder))?;
+        }
+        fs::write(&path, &file.bytes).map_err(disk(&path))?;
+    }
+    Ok(())
+}
+
+/// Puts `new` at `dir`; what was there goes by way of `old`.
+fn swap(dir: &Path, new: &Path, old: &Path) -> Result<(), JobDirError> {
+    let disk = |source| JobDirError::Disk { path: dir.to_owned(), source };
+    let replaces = dir.exists();
+    if replaces {
+        fs::rename(dir, old).map_err(disk)?;
+    }
+    if let Err(source) = fs::rename(new, dir) {
+        if replaces {
+            // Back to where it was.
+            let _ = fs::rename(old, dir);
+        }
+        return Err(disk(source));
+    }
+    if replaces {
+        // The job stands; an old one that cannot be removed does no harm.
+        let _ = fs::remove_dir_all(old);
+    }
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn job(text: &str) -> [JobFile; 2] {
+        let manifest = br#"{"format":"finwright-job"}"#.to_vec();
+        [
+            JobFile { path: "job.json".into(), bytes: manifest },
+            JobFile { path: "sheets/a.svg".into(), bytes: text.into() },
+        ]
+    }
+
+    #[test]
+    fn a_job_replaces_a_job_as_a_whole() {
+        let place = tempfile::tempdir().unwrap();
+        let dir = place.path().join("vault");
+        write(&dir, &job("one")).unwrap();
+        fs::write(dir.join("sheets/b.svg"), "left over").unwrap();
+        write(&dir, &job("two")).unwrap();
+        assert_eq!(fs::read_to_string(dir.join("sheets/a.svg")).unwrap(), "two");
+        assert!(!dir.join("sheets/b.svg").exists());
+        assert_eq!(fs::read_dir(place.path()).unwrap().count(), 1);
+    }
+
+    #[test]
+    fn a_folder_of_somebody_else_is_left_alone() {
+        let place = tempfile::tempdir().unwrap();
+        fs::write(place.path().join("thesis.txt"), "years of work").unwrap();
+        let error = write(place.path(), &job("one")).unwrap_err();
+        assert!(matches!(error, JobDirError::Foreign { .. }));
+        assert_eq!(fs::read_dir(place.path()).unwrap().count(), 1);
+    }
+}

@@ -1,0 +1,10 @@
+//! The command: what was typed, what is read and written, what is said.
+
+mod args;
+mod input;
+mod jobdir;
+mod run;
+mod show;
+
+pub use args::Cli;
+pub use run::run;

@@ -1,0 +1,315 @@
+//! The commands, and the only place that writes files.
+
+use crate::cli::args::{
+    Cli, Command, EffortLevel, ExampleAction, InputArgs, Joint, MakeArgs, TemplateAction,
+};
+use crate::cli::input::{self, Input, InputError};
+use crate::cli::jobdir::{self, JobDirError, JobFile};
+use crate::cli::show::{Terminal, Voice};
+use crate::design::examples;
+use crate::diagnostic::{Finding, passes};
+use crate::export;
+use crate::gate::approve;
+use crate::job::{self, Interrupted, Job, Order};
+use crate::nest::Effort;
+use crate::report::{self, Source};
+use crate::structure::{Structure, write_json};
+use crate::template::{self, Template};
+use crate::tolerance::Tolerance;
+use clap::CommandFactory;
+use miette::Diagnostic;
+use std::io::Write;
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+/// How a command ended; the number is the exit code (contract §1).
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum End {
+    Done = 0,
+    CouldNotRun = 1,
+    WrongUsage = 2,
+    Refused = 3,
+    Interrupted = 4,
+}
+
+/// Why a command could not run.
+enum Failure {
+    Input(InputError),
+    JobDir(JobDirError),
+    Interrupted,
+}
+
+impl From<InputError> for Failure {
+    fn from(error: InputError) -> Self {
+        Self::Input(error)
+    }
+}
+
+impl From<JobDirError> for Failure {
+    fn from(error: JobDirError) -> Self {
+        Self::JobDir(error)
+    }
+}
+
+impl From<Interrupted> for Failure {
+    fn from(_: Interrupted) -> Self {
+        Self::Interrupted
+    }
+}
+
+/// Runs a command line.
+pub fn run(cli: Cli) -> ExitCode {
+    let voice = Voice { quiet: cli.quiet, verbose: cli.verbose };
+    let end = match cli.command {
+        Command::Make(args) => make(&args, voice),
+        Command::Check(args) => check(&args.input, voice),
+        Command::Template { action } => templates(action),
+        Command::Example { action } => example(action),
+        Command::Completions { shell } => {
+            let mut text = Vec::new();
+            clap_complete::generate(shell, &mut Cli::command(), "finwright", &mut text);
+            Ok(print(&String::from_utf8_lossy(&text)))
+        }
+    };
+    let end = end.unwrap_or_else(|failure| match failure {
+        Failure::Input(error) => complain(&error, &error.to_string()),
+        Failure::JobDir(error) => complain(&error, &error.to_string()),
+        Failure::Interrupted => {
+            let _ = writeln!(std::io::stderr(), "interrupted; nothing was written");
+            End::Interrupted
+        }
+    });
+    ExitCode::from(end as u8)
+}
+
+/// Says what went wrong, always.
+fn complain(error: &dyn Diagnostic, message: &str) -> End {
+    let mut stderr = std::io::stderr();
+    let _ = writeln!(stderr, "error: {message}");
+    if let (Some(code), Some(help)) = (error.code(), error.help()) {
+        let _ = writeln!(stderr, "  {code}: {help}");
+    }
+    End::CouldNotRun
+}
+
+/// Prints on standard output; a reader that went away is no fault of ours.
+fn print(text: &str) -> End {
+    let _ = std::io::stdout().write_all(text.as_bytes());
+    End::Done
+}
+
+/// A job with what it was made from.
+struct Ordered {
+    job: Job,
+    input: Input,
+    template: Template,
+}
+
+fn ordered(args: &InputArgs, voice: Voice) -> Result<Ordered, Failure> {
+    let template = input::template(&args.template)?;
+    let mut input = input::structure(args)?;
+    let stop = Arc::new(AtomicBool::new(false));
+    let switch = Arc::clone(&stop);
+    // Without a handler Ctrl-C just ends the process, and nothing has been written then.
+    let _ = ctrlc::set_handler(move || switch.store(true, Ordering::Relaxed));
+    let mut terminal = Terminal::new(voice, stop);
+    let draft = std::mem::take(&mut input.draft);
+    let order = Order { draft, template: &template, effort: effort(args) };
+    let job = job::run(order, &mut terminal);
+    terminal.finish();
+    let mut job = job?;
+    job.findings.splice(0..0, input.findings.drain(..));
+    Ok(Ordered { job, input, template })
+}
+
+fn effort(args: &InputArgs) -> Effort {
+    let trials = match args.effort {
+        EffortLevel::Quick => 1,
+        EffortLevel::Normal => 8,
+        EffortLevel::Thorough => 64,
+    };
+    Effort { trials, seed: args.seed }
+}
+
+/// A joint that cannot be made yet ends with a word about it.
+fn joint_not_built(joint: Joint) -> Option<End> {
+    let name = joint_name(joint);
+    (joint != Joint::Lap).then(|| {
+        let _ = writeln!(
+            std::io::stderr(),
+            "error: --joint {name} cannot be made yet; --joint lap can"
+        );
+        End::WrongUsage
+    })
+}
+
+const fn joint_name(joint: Joint) -> &'static str {
+    match joint {
+        Joint::Lap => "lap",
+        Joint::Hinge => "hinge",
+        Joint::Hub => "hub",
+    }
+}
+
+fn make(args: &MakeArgs, voice: Voice) -> Result<End, Failure> {
+    if let Some(end) = joint_not_built(args.input.joint) {
+        return Ok(end);
+    }
+    let ordered = ordered(&args.input, voice)?;
+    let job = &ordered.job;
+    voice.findings(&job.findings);
+    let name = job.structure.as_ref().map(Structure::name).unwrap_or_default();
+    let dir = args.output.clone().unwrap_or_else(|| Path::new("out").join(folder_name(name)));
+    let manifest = ordered.manifest(&args.input);
+    let mut files = ordered.files(&manifest);
+    let approved = approve(&job.sheets, &job.findings).filter(|sheets| !sheets.get().is_empty());
+    let end = match &approved {
+        Some(sheets) => {
+            files.extend(export::cut_files(sheets).into_iter().map(named));
+            End::Done
+        }
+        None => {
+            files.extend(export::stamped_previews(&job.sheets).into_iter().map(named));
+            End::Refused
+        }
+    };
+    if job.structure.is_some() {
+        jobdir::write(&dir, &files)?;
+    }
+    if args.input.json {
+        print(&format!("{manifest}\n"));
+    }
+    voice.say(&summary(job, end, &dir));
+    Ok(end)
+}
+
+/// A name that can be a folder.
+fn folder_name(name: &str) -> String {
+    let safe = |c: char| if c.is_alphanumeric() || "-_ .".contains(c) { c } else { '-' };
+    let name: String = name.chars().map(safe).collect();
+    let name = name.trim_matches(['.', ' ']);
+    if name.is_empty() { "job".to_owned() } else { name.to_owned() }
+}
+
+fn named((path, bytes): (String, Vec<u8>)) -> JobFile {
+    JobFile { path, bytes }
+}
+
+fn summary(job: &Job, end: End, dir: &Path) -> String {
+    let parts = job.parts.len();
+    let sheets = job.sheets.len();
+    match end {
+        End::Done => {
+            let plural = if sheets == 1 { "" } else { "s" };
+            format!("{parts} parts on {sheets} sheet{plural} in {}", dir.display())
+        }
+        _ if job.structure.is_some() => format!(
+            "refused: no cut file was written; the findings are in {}",
+            dir.join("job.json").display()
+        ),
+        _ => "refused: there is no structure to make parts of".to_owned(),
+    }
+}
+
+impl Ordered {
+    fn manifest(&self, args: &InputArgs) -> serde_json::Value {
+        let source = Source {
+            input: &self.input.file,
+            input_sha256: &self.input.sha256,
+            template: &self.template,
+            template_sha256: &input::sha256(self.template.source.as_bytes()),
+            seed: args.seed,
+            scale: &args.scale.text,
+            joint: joint_name(args.joint),
+        };
+        report::manifest(&self.job, &source)
+    }
+
+    /// The files that stand in every job directory.
+    fn files(&self, manifest: &serde_json::Value) -> Vec<JobFile> {
+        let text = |path: &str, text: String| named((path.to_owned(), text.into_bytes()));
+        let pretty = serde_json::to_string_pretty(manifest).unwrap_or_default() + "\n";
+        let mut files = vec![
+            text("job.json", pretty),
+            text("parts.csv", report::bill(&self.job, &self.template.material.name)),
+        ];
+        let structure = self.job.structure.as_ref();
+        files.extend(structure.map(|s| text("structure.json", write_json(s))));
+        files
+    }
+}
+
+fn check(args: &InputArgs, voice: Voice) -> Result<End, Failure> {
+    if let Some(end) = joint_not_built(args.joint) {
+        return Ok(end);
+    }
+    let ordered = ordered(args, voice)?;
+    let findings = &ordered.job.findings;
+    voice.findings(findings);
+    let fine = passes(findings);
+    if args.json {
+        print(&format!("{}\n", check_json(findings)));
+    }
+    voice.say(match (fine, findings.is_empty()) {
+        (true, true) => "nothing found: it can be cut",
+        (true, false) => "it can be cut",
+        (false, _) => "it cannot be cut as it is",
+    });
+    Ok(if fine { End::Done } else { End::Refused })
+}
+
+fn check_json(findings: &[Finding]) -> serde_json::Value {
+    serde_json::json!({"passes": passes(findings), "findings": findings})
+}
+
+fn templates(action: TemplateAction) -> Result<End, Failure> {
+    match action {
+        TemplateAction::List => {
+            let line = |name: &&str| {
+                let read = Template::embedded(name).and_then(|s| template::read(s, name).ok());
+                let about = read.map(|template| template.material.name).unwrap_or_default();
+                format!("{name:14} {about}\n")
+            };
+            Ok(print(&template::names().iter().map(line).collect::<String>()))
+        }
+        TemplateAction::Show { name } => match Template::embedded(&name) {
+            Some(source) => Ok(print(source)),
+            None => Err(InputError::BadTemplate(template::unknown_name(&name)).into()),
+        },
+        TemplateAction::Check { file } => {
+            let name = file.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+            let text = input::text(&file)?;
+            template::read(&text, &name).map_err(InputError::BadTemplate)?;
+            let _ = writeln!(std::io::stderr(), "{}: nothing wrong", file.display());
+            Ok(End::Done)
+        }
+    }
+}
+
+fn example(action: ExampleAction) -> Result<End, Failure> {
+    match action {
+        ExampleAction::List => {
+            let line = |e: &examples::Example| format!("{:14} {}\n", e.name, e.about);
+            Ok(print(&examples::ALL.iter().map(line).collect::<String>()))
+        }
+        ExampleAction::Write { name, output } => {
+            let Some(text) = example_text(&name) else {
+                let path = PathBuf::from(name);
+                return Err(InputError::UnknownFormat { path }.into());
+            };
+            let Some(path) = output else { return Ok(print(&text)) };
+            std::fs::write(&path, text)
+                .map_err(|source| JobDirError::Disk { path, source })?;
+            Ok(End::Done)
+        }
+    }
+}
+
+/// An embedded structure as JSON.
+fn example_text(name: &str) -> Option<String> {
+    let example = examples::named(name)?;
+    let (structure, _) = Structure::new((example.draft)(), &Tolerance::default()).ok()?;
+    Some(write_json(&structure))
+}

@@ -1,0 +1,107 @@
+//! What is said on the terminal: findings, progress, a summary. All of it on stderr.
+
+use crate::diagnostic::{Finding, Severity};
+use crate::watch::Watch;
+use indicatif::{ProgressBar, ProgressStyle};
+use std::collections::BTreeMap;
+use std::io::{IsTerminal, Write};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+/// How much is said.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Voice {
+    /// Only what went wrong.
+    pub quiet: bool,
+    /// Every finding.
+    pub verbose: bool,
+}
+
+/// Findings of one kind that are shown before the rest is only counted.
+const FEW: usize = 3;
+
+impl Voice {
+    /// Says a line unless told to be quiet.
+    pub fn say(self, line: &str) {
+        if !self.quiet {
+            whisper(line);
+        }
+    }
+
+    /// Says what was found, worst first, the first few of each kind.
+    pub fn findings(self, findings: &[Finding]) {
+        let mut kinds: BTreeMap<(std::cmp::Reverse<Severity>, &str), Vec<&Finding>> =
+            BTreeMap::new();
+        for finding in findings {
+            let kind = (std::cmp::Reverse(finding.severity), finding.code.as_str());
+            kinds.entry(kind).or_default().push(finding);
+        }
+        for ((severity, code), found) in kinds {
+            if self.quiet && severity.0 != Severity::Error {
+                continue;
+            }
+            let shown = if self.verbose { found.len() } else { FEW.min(found.len()) };
+            for finding in &found[..shown] {
+                whisper(&format!("{}: {}", title(severity.0), finding.message));
+            }
+            if found.len() > shown {
+                let more = found.len() - shown;
+                whisper(&format!("  ... and {more} more of this kind (-v shows all)"));
+            }
+            whisper(&format!("  {code}: {}", found[0].help));
+        }
+    }
+}
+
+/// One line on stderr; a closed terminal is no reason to fail.
+fn whisper(line: &str) {
+    let _ = writeln!(std::io::stderr(), "{line}");
+}
+
+fn title(severity: Severity) -> String {
+    let (word, colour) = match severity {
+        Severity::Error => ("error", 31),
+        Severity::Warning => ("warning", 33),
+        Severity::Note => ("note", 36),
+    };
+    let plain = std::env::var_os("NO_COLOR").is_some_and(|value| !value.is_empty());
+    if plain || !std::io::stderr().is_terminal() {
+        word.to_owned()
+    } else {
+        format!("\u{1b}[{colour}m{word}\u{1b}[0m")
+    }
+}
+
+/// A progress bar on stderr and a stop switch on Ctrl-C.
+pub struct Terminal {
+    bar: ProgressBar,
+    stop: Arc<AtomicBool>,
+}
+
+impl Terminal {
+    /// Shows progress unless told to be quiet; asks `stop` whether to stop.
+    pub fn new(voice: Voice, stop: Arc<AtomicBool>) -> Self {
+        let bar = if voice.quiet { ProgressBar::hidden() } else { ProgressBar::new(1) };
+        if let Ok(style) = ProgressStyle::with_template("{msg:10} {wide_bar} {pos}/{len}") {
+            bar.set_style(style);
+        }
+        Self { bar, stop }
+    }
+
+    /// Takes the bar off the screen.
+    pub fn finish(&self) {
+        self.bar.finish_and_clear();
+    }
+}
+
+impl Watch for Terminal {
+    fn progress(&mut self, stage: &'static str, done: usize, total: usize) {
+        self.bar.set_message(stage);
+        self.bar.set_length(total as u64);
+        self.bar.set_position(done as u64);
+    }
+
+    fn stopped(&self) -> bool {
+        self.stop.load(Ordering::Relaxed)
+    }
+}

@@ -1,0 +1,160 @@
+//! The stages in order and nothing else.
+
+use crate::diagnostic::Finding;
+use crate::geometry::Point2;
+use crate::nest::{self, Effort, Layout, NestError, Shape, Stock, Turns};
+use crate::parts::{self, Fit, FoldMarks, Making, Marking, Part};
+use crate::sheets::{self, Frame, Kerf, Laying, Sheet};
+use crate::structure::{Draft, Structure};
+use crate::template::Template;
+use crate::tolerance::{ARC_SAGITTA_MM, Tolerance};
+use crate::watch::Watch;
+
+/// What a job is made from.
+pub struct Order<'a> {
+    /// The structure as read, mm at model scale.
+    pub draft: Draft,
+    /// Material, stock and joint.
+    pub template: &'a Template,
+    /// How hard to nest.
+    pub effort: Effort,
+}
+
+/// How far a job came.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Job {
+    /// Everything found on the way.
+    pub findings: Vec<Finding>,
+    /// The structure as built; `None` if the draft was none.
+    pub structure: Option<Structure>,
+    /// The parts in the order of assembly.
+    pub parts: Vec<Part>,
+    /// Stock that the layout chose from.
+    pub stock: Vec<Stock>,
+    /// Where parts lie.
+    pub layout: Layout,
+    /// What the laser does.
+    pub sheets: Vec<Sheet>,
+}
+
+/// The work was stopped from outside.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Interrupted;
+
+/// Takes a structure through all stages, as far as they go.
+///
+/// # Errors
+/// [`Interrupted`] if the watch stopped the work.
+pub fn run(order: Order, watch: &mut dyn Watch) -> Result<Job, Interrupted> {
+    let template = order.template;
+    let mut job = Job { stock: stock(template), ..Job::default() };
+    watch.progress("structure", 0, 1);
+    let structure = match Structure::new(order.draft, &tolerance(template)) {
+        Ok((structure, findings)) => {
+            job.findings = findings;
+            structure
+        }
+        Err(refused) => return Ok(Job { findings: refused.findings, ..job }),
+    };
+    watch.progress("parts", 0, 1);
+    let name = structure.name().to_owned();
+    let kerf = Kerf::from_width_mm(template.material.kerf_mm);
+    let fit = fit(template);
+    let fits = |outline: &[Point2]| job.stock.iter().any(|s| nest::fits(outline, s).is_some());
+    let marking = marking(template);
+    let made = parts::strips(structure, &Making { fit: &fit, marking, fits: &fits });
+    job.findings.extend(made.findings.into_iter().map(Finding::from));
+    job.structure = Some(made.structure);
+    job.parts = made.parts;
+    if watch.stopped() {
+        return Err(Interrupted);
+    }
+    let shapes: Vec<Shape> = job.parts.iter().map(|p| shape(p, kerf, template)).collect();
+    match nest::nest(&shapes, &job.stock, &order.effort, watch) {
+        Ok(layout) => job.layout = layout,
+        Err(NestError::Stopped) => return Err(Interrupted),
+        Err(error) => job.findings.push(error.into()),
+    }
+    watch.progress("sheets", 0, 1);
+    let frame = frame(template, name);
+    job.sheets = sheets::sheets(&Laying {
+        parts: &job.parts,
+        layout: &job.layout,
+        stock: &job.stock,
+        kerf,
+        frame: template.output.frame.then_some(&frame),
+    });
+    Ok(job)
+}
+
+/// A part as the nester sees it: the line that will be drawn.
+fn shape(part: &Part, kerf: Kerf, template: &Template) -> Shape {
+    let drawn = kerf.compensated(&part.region.outline);
+    let turns = if template.material.grain {
+        Turns::Only(vec![0.0, std::f64::consts::PI])
+    } else {
+        Turns::Free
+    };
+    Shape { name: part.id.clone(), outline: drawn.flattened(ARC_SAGITTA_MM), turns }
+}
+
+fn tolerance(template: &Template) -> Tolerance {
+    Tolerance {
+        planarity_warn: template.gate.planarity_warn_percent / 100.0,
+        planarity_limit: template.gate.planarity_limit_percent / 100.0,
+        ..Tolerance::default()
+    }
+}
+
+fn stock(template: &Template) -> Vec<Stock> {
+    let sheets = template.sheet.iter().map(|sheet| Stock {
+        width: sheet.width_mm,
+        height: sheet.height_mm,
+        margin: sheet.margin_mm,
+        spacing: sheet.spacing_mm,
+        count: sheet.count,
+    });
+    sheets.collect()
+}
+
+fn fit(template: &Template) -> Fit {
+    let (material, joint, gate) = (&template.material, &template.joint, &template.gate);
+    Fit {
+        thickness: material.thickness_mm,
+        clearance: material.clearance_mm,
+        web: material.web_mm,
+        web_least: material.web_least_mm,
+        relief: material.relief_radius_mm,
+        overhang: joint.overhang_mm,
+        lap_split: joint.lap_split,
+        depth_allowance: joint.depth_allowance_mm,
+        chamfer: joint.mouth_chamfer_mm,
+        chamfer_angle: joint.mouth_chamfer_deg.to_radians(),
+        setback: joint.setback_mm,
+        crossing_warn: gate.crossing_warn_deg.to_radians(),
+        crossing_least: gate.crossing_least_deg.to_radians(),
+        bend_model: template.bend.model,
+        bend_crack: template.bend.crack,
+    }
+}
+
+fn marking(template: &Template) -> Marking {
+    Marking {
+        height: template.output.lettering_mm,
+        folds: match template.bend.fold_marks {
+            crate::template::FoldMarks::None => FoldMarks::None,
+            crate::template::FoldMarks::Engrave => FoldMarks::Engrave,
+            crate::template::FoldMarks::Score => FoldMarks::Score,
+        },
+    }
+}
+
+fn frame(template: &Template, job: String) -> Frame {
+    let kerf = template.material.kerf_mm;
+    let note = if kerf > 0.0 {
+        format!("kerf {kerf} mm is in the lines: cut on the line")
+    } else {
+        "no kerf in the lines".to_owned()
+    };
+    Frame { job, material: template.material.name.clone(), notes: vec![note] }
+}

@@ -1,0 +1,58 @@
+//! `parts.csv`: the bill of parts.
+
+use crate::geometry::Contour;
+use crate::job::Job;
+use crate::parts::{Body, Part};
+use std::collections::BTreeMap;
+use std::fmt::Write;
+
+/// One line per part: what it is, how large, on which sheet, which nodes.
+pub fn bill(job: &Job, material: &str) -> String {
+    let sheets: BTreeMap<usize, &str> = job
+        .sheets
+        .iter()
+        .zip(&job.layout.sheets)
+        .flat_map(|(sheet, nested)| {
+            nested.placements.iter().map(|p| (p.shape, sheet.id.as_str()))
+        })
+        .collect();
+    let mut text = String::from(
+        "part,kind,quantity,material,length_mm,height_mm,area_mm2,cut_length_mm,sheet,nodes\n",
+    );
+    for (index, part) in job.parts.iter().enumerate() {
+        let sheet = sheets.get(&index).copied().unwrap_or_default();
+        let [length, height] = extent(part);
+        let cut: f64 = part.region.contours().map(Contour::length).sum();
+        let Body::Strip(body) = &part.body;
+        let nodes: Vec<String> = body.axes.iter().map(|a| a.node.to_string()).collect();
+        // Writing to a string cannot fail.
+        let _ = writeln!(
+            text,
+            "{},strip,{},{},{length:.1},{height:.1},{:.1},{cut:.1},{sheet},{}",
+            part.id,
+            part.quantity,
+            quoted(material),
+            part.region.area(),
+            nodes.join(" ")
+        );
+    }
+    text
+}
+
+fn extent(part: &Part) -> [f64; 2] {
+    let vertices = || part.region.outline.vertices.iter().map(|v| v.point);
+    let span = |of: fn(&crate::geometry::Point2) -> f64| {
+        let high = vertices().map(|p| of(&p)).fold(f64::NEG_INFINITY, f64::max);
+        high - vertices().map(|p| of(&p)).fold(f64::INFINITY, f64::min)
+    };
+    [span(|p| p.x), span(|p| p.y)]
+}
+
+/// A CSV field.
+fn quoted(text: &str) -> String {
+    if text.contains([',', '"', '\n']) {
+        format!("\"{}\"", text.replace('"', "\"\""))
+    } else {
+        text.to_owned()
+    }
+}

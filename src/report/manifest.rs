@@ -1,0 +1,223 @@
+//! `job.json`: everything an outside program needs to predict each cut line and to fold
+//! each part back onto the structure (contract §3).
+
+use crate::geometry::{Contour, Point2};
+use crate::job::Job;
+use crate::nest::{NestedSheet, Stock};
+use crate::parts::{Body, FlatAxis, Opening, Part, Slit, StripBody};
+use crate::sheets::{Operation, Path, Sheet};
+use crate::template::Template;
+use crate::tolerance::ARC_SAGITTA_MM;
+use serde_json::{Value, json};
+
+/// Where a job came from.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Source<'a> {
+    /// Name of the input file, without its folder.
+    pub input: &'a str,
+    /// SHA-256 of the input, hexadecimal.
+    pub input_sha256: &'a str,
+    /// The template.
+    pub template: &'a Template,
+    /// SHA-256 of the template, hexadecimal.
+    pub template_sha256: &'a str,
+    /// Seed of the nesting.
+    pub seed: u64,
+    /// Such as `1:50`.
+    pub scale: &'a str,
+    /// Such as `lap`.
+    pub joint: &'a str,
+}
+
+/// The manifest of a job.
+pub fn manifest(job: &Job, source: &Source) -> Value {
+    let material = &source.template.material;
+    json!({
+        "format": "finwright-job",
+        "version": 1,
+        "generator": concat!("finwright ", env!("CARGO_PKG_VERSION")),
+        "input": {"name": source.input, "sha256": source.input_sha256},
+        "template": {"name": source.template.name, "sha256": source.template_sha256},
+        "seed": source.seed,
+        "scale": source.scale,
+        "joint": source.joint,
+        "material": {
+            "name": material.name,
+            "thickness": material.thickness_mm,
+            "kerf": material.kerf_mm,
+            "clearance": material.clearance_mm,
+        },
+        "sheet_stock": job.stock.iter().map(stock).collect::<Vec<_>>(),
+        "verdict": null,
+        "accepted_flexible": null,
+        "findings": job.findings,
+        "parts": job.parts.iter().map(part).collect::<Vec<_>>(),
+        "sheets": sheets(job),
+        "assembly": assembly(&job.parts),
+        "totals": totals(job, source.template),
+    })
+}
+
+/// Lengths and degrees as written: to 1e-6 mm and 1e-7 degrees, never `-0`.
+fn rounded(value: f64, places: f64) -> f64 {
+    (value * places).round() / places + 0.0
+}
+
+fn mm(value: f64) -> f64 {
+    rounded(value, 1e6)
+}
+
+fn degrees(radians: f64) -> f64 {
+    rounded(radians.to_degrees(), 1e7)
+}
+
+fn point(p: Point2) -> Value {
+    json!([mm(p.x), mm(p.y)])
+}
+
+fn ring(contour: &Contour) -> Vec<Value> {
+    contour.flattened(ARC_SAGITTA_MM).into_iter().map(point).collect()
+}
+
+fn stock(stock: &Stock) -> Value {
+    json!({
+        "width": stock.width,
+        "height": stock.height,
+        "margin": stock.margin,
+        "spacing": stock.spacing,
+        "count": stock.count,
+    })
+}
+
+fn part(part: &Part) -> Value {
+    let Body::Strip(body) = &part.body;
+    let cut_length: f64 = part.region.contours().map(Contour::length).sum();
+    json!({
+        "id": part.id,
+        "kind": "strip",
+        "quantity": part.quantity,
+        "label": part.id,
+        "outline": ring(&part.region.outline),
+        "holes": part.region.holes.iter().map(ring).collect::<Vec<_>>(),
+        "area": mm(part.region.area()),
+        "cut_length": mm(cut_length),
+        "strip": strip(body),
+    })
+}
+
+fn strip(body: &StripBody) -> Value {
+    let folds = body.folds.iter();
+    let folds = folds.map(|f| json!({"node": f.node, "angle_deg": degrees(f.angle)}));
+    json!({
+        "nodes": body.axes.iter().map(|axis| axis.node).collect::<Vec<_>>(),
+        "closed": body.closed,
+        "axes": body.axes.iter().map(axis).collect::<Vec<_>>(),
+        "folds": folds.collect::<Vec<_>>(),
+        "slits": body.slits.iter().map(|(s, partner)| slit(s, partner)).collect::<Vec<_>>(),
+        "splices": body.splices.iter().map(|fin| json!({"fin": fin})).collect::<Vec<_>>(),
+    })
+}
+
+fn axis(axis: &FlatAxis) -> Value {
+    json!({"node": axis.node, "bottom": point(axis.bottom()), "top": point(axis.top())})
+}
+
+fn slit(slit: &Slit, partner: &str) -> Value {
+    json!({
+        "node": slit.node,
+        "from": match slit.from { Opening::Top => "top", Opening::Bottom => "bottom" },
+        "width": mm(slit.width()),
+        "depth": mm(slit.depth),
+        "offset": mm(slit.offset()),
+        "crossing_deg": degrees(slit.crossing),
+        "partner": partner,
+    })
+}
+
+fn sheets(job: &Job) -> Vec<Value> {
+    let pairs = job.sheets.iter().zip(&job.layout.sheets);
+    pairs.map(|(sheet, nested)| sheet_entry(job, sheet, nested)).collect()
+}
+
+fn sheet_entry(job: &Job, sheet: &Sheet, nested: &NestedSheet) -> Value {
+    let area = |placement: &crate::nest::Placement| job.parts[placement.shape].region.area();
+    let used: f64 = nested.placements.iter().map(area).sum();
+    let placements = nested.placements.iter().map(|p| {
+        json!({
+            "part": job.parts[p.shape].id,
+            "copy": 1,
+            "x": mm(p.x),
+            "y": mm(p.y),
+            "angle_deg": degrees(p.angle),
+        })
+    });
+    let file = |ending: &str| format!("sheets/{}.{ending}", sheet.id);
+    json!({
+        "id": sheet.id,
+        "width": sheet.width,
+        "height": sheet.height,
+        "files": {"dxf": file("dxf"), "svg": file("svg"), "png": file("png")},
+        "utilisation": mm(used / (sheet.width * sheet.height)),
+        "placements": placements.collect::<Vec<_>>(),
+    })
+}
+
+/// One step per part, in the order of ranks: each strip goes in from above, its slits open
+/// at the bottom onto the strips that stand already.
+fn assembly(parts: &[Part]) -> Vec<Value> {
+    let step = |(k, part): (usize, &Part)| {
+        let Body::Strip(body) = &part.body;
+        let onto = body.slits.iter().filter(|(slit, _)| slit.from == Opening::Bottom);
+        let onto = onto.map(|(slit, partner)| json!({"node": slit.node, "part": partner}));
+        json!({
+            "step": k + 1,
+            "part": part.id,
+            "rank": body.rank + 1,
+            "from": "above",
+            "onto": onto.collect::<Vec<_>>(),
+        })
+    };
+    parts.iter().enumerate().map(step).collect()
+}
+
+/// Lengths, time, mass and cost of a whole job.
+fn totals(job: &Job, template: &Template) -> Value {
+    let length = |operations: &[Operation]| -> f64 {
+        let strokes = job.sheets.iter().flat_map(|sheet| &sheet.strokes);
+        let wanted = strokes.filter(|stroke| operations.contains(&stroke.operation));
+        wanted.map(|stroke| path_length(&stroke.path)).sum()
+    };
+    let cut = length(&[Operation::CutInner, Operation::CutOuter]);
+    let marked = length(&[Operation::Engrave, Operation::Score]);
+    let material = &template.material;
+    let seconds = cut / material.cut_speed_mm_s + marked / material.engrave_speed_mm_s;
+    let area: f64 = job.parts.iter().map(|p| p.region.area() * p.quantity as f64).sum();
+    // mm² × mm × kg/m³ = 1e-9 kg.
+    let mass = area * material.thickness_mm * material.density_kg_m3 * 1e-9;
+    json!({
+        "parts": job.parts.iter().map(|part| part.quantity).sum::<usize>(),
+        "sheets": job.sheets.len(),
+        "cut_length": mm(cut),
+        "engrave_length": mm(marked),
+        "seconds": rounded(seconds, 10.0),
+        "mass": mm(mass),
+        "cost": cost(job, template),
+    })
+}
+
+/// Price of the sheets used, if the template prices all of them.
+fn cost(job: &Job, template: &Template) -> Option<f64> {
+    let price = |nested: &NestedSheet| {
+        let sheet = template.sheet.get(nested.stock)?;
+        let by_area = template.material.price_per_m2;
+        sheet.price.or(by_area.map(|p| p * sheet.width_mm * sheet.height_mm * 1e-6))
+    };
+    job.layout.sheets.iter().map(price).sum::<Option<f64>>().map(|cost| rounded(cost, 100.0))
+}
+
+fn path_length(path: &Path) -> f64 {
+    match path {
+        Path::Open(points) => points.windows(2).map(|w| (w[1] - w[0]).norm()).sum(),
+        Path::Closed(contour) => contour.length(),
+    }
+}
