@@ -1,7 +1,7 @@
 //! The stages in order and nothing else.
 
 use crate::diagnostic::Finding;
-use crate::geometry::Point2;
+use crate::geometry::{Contour, Point2};
 use crate::nest::{self, Effort, Layout, NestError, Shape, Stock, Turns};
 use crate::parts::{self, Fit, FoldMarks, Making, Marking, Part};
 use crate::sheets::{self, Frame, Kerf, Laying, Sheet};
@@ -60,7 +60,13 @@ pub fn run(order: Order, watch: &mut dyn Watch) -> Result<Job, Interrupted> {
     let name = structure.name().to_owned();
     let kerf = Kerf::from_width_mm(template.material.kerf_mm);
     let fit = fit(template);
-    let fits = |outline: &[Point2]| job.stock.iter().any(|s| nest::fits(outline, s).is_some());
+    let turns = turns(template);
+    let stock = &job.stock;
+    let fits = |outline: &[Point2]| {
+        let drawn = kerf.compensated(&Contour::polygon(outline.iter().copied()));
+        let drawn = drawn.flattened(ARC_SAGITTA_MM);
+        stock.iter().any(|sheet| nest::fits(&drawn, &turns, sheet).is_some())
+    };
     let marking = marking(template);
     let made = parts::strips(structure, &Making { fit: &fit, marking, fits: &fits });
     job.findings.extend(made.findings.into_iter().map(Finding::from));
@@ -90,12 +96,17 @@ pub fn run(order: Order, watch: &mut dyn Watch) -> Result<Job, Interrupted> {
 /// A part as the nester sees it: the line that will be drawn.
 fn shape(part: &Part, kerf: Kerf, template: &Template) -> Shape {
     let drawn = kerf.compensated(&part.region.outline);
-    let turns = if template.material.grain {
+    let outline = drawn.flattened(ARC_SAGITTA_MM);
+    Shape { name: part.id.clone(), outline, turns: turns(template) }
+}
+
+/// Grain must run along the parts.
+fn turns(template: &Template) -> Turns {
+    if template.material.grain {
         Turns::Only(vec![0.0, std::f64::consts::PI])
     } else {
         Turns::Free
-    };
-    Shape { name: part.id.clone(), outline: drawn.flattened(ARC_SAGITTA_MM), turns }
+    }
 }
 
 fn tolerance(template: &Template) -> Tolerance {

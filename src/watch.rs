@@ -9,6 +9,11 @@ pub trait Watch {
 
     /// Whether the work should stop at its next safe point.
     fn stopped(&self) -> bool;
+
+    /// Whether a search that has found something should be content with it.
+    fn enough(&self) -> bool {
+        false
+    }
 }
 
 /// Nobody listens, nobody stops.

@@ -3,7 +3,9 @@
 use crate::cli::args::{Fix, InputArgs};
 use crate::design::examples;
 use crate::diagnostic::Finding;
-use crate::structure::{Draft, ObjOptions, ReadError, StructureFinding, read_json, read_obj};
+use crate::structure::{
+    Draft, ObjOptions, ReadError, StructureFinding, read_json, read_obj,
+};
 use crate::template::{self, Template, TemplateErrors};
 use miette::Diagnostic;
 use sha2::{Digest, Sha256};
@@ -25,12 +27,14 @@ pub enum InputError {
     #[error("{} is neither .json nor .obj", path.display())]
     #[diagnostic(
         code(input::unknown_format),
-        help("export the mesh as OBJ, or name an embedded structure (`finwright example list`)")
+        help(
+            "export the mesh as OBJ, or name an embedded structure (`finwright example list`)"
+        )
     )]
     UnknownFormat { path: PathBuf },
 
     #[error("{}: {source}", path.display())]
-    #[diagnostic(transparent)]
+    #[diagnostic(forward(source))]
     BadStructure { path: PathBuf, source: ReadError },
 
     #[error(transparent)]
@@ -122,7 +126,11 @@ fn fixed(fix: &Fix, draft: &Draft) -> Option<Vec<usize>> {
             let low = all().fold(f64::INFINITY, f64::min);
             let high = all().fold(f64::NEG_INFINITY, f64::max);
             let limit = low + 1e-3 * (high - low);
-            Some((0..draft.positions.len()).filter(|&k| draft.positions[k].z <= limit).collect())
+            Some(
+                (0..draft.positions.len())
+                    .filter(|&k| draft.positions[k].z <= limit)
+                    .collect(),
+            )
         }
     }
 }
@@ -133,7 +141,7 @@ fn fixed(fix: &Fix, draft: &Draft) -> Option<Vec<usize>> {
 /// [`InputError`] if there is none, or it has faults.
 pub fn template(named: &str) -> Result<Template, InputError> {
     let path = Path::new(named);
-    if let Some(source) = Template::embedded(named) {
+    if let Some(source) = template::embedded(named) {
         return Ok(template::read(source, named)?);
     }
     if named.ends_with(".toml") || path.exists() {

@@ -161,10 +161,12 @@ fn make(args: &MakeArgs, voice: Voice) -> Result<End, Failure> {
     let job = &ordered.job;
     voice.findings(&job.findings);
     let name = job.structure.as_ref().map(Structure::name).unwrap_or_default();
-    let dir = args.output.clone().unwrap_or_else(|| Path::new("out").join(folder_name(name)));
+    let dir =
+        args.output.clone().unwrap_or_else(|| Path::new("out").join(folder_name(name)));
     let manifest = ordered.manifest(&args.input);
     let mut files = ordered.files(&manifest);
-    let approved = approve(&job.sheets, &job.findings).filter(|sheets| !sheets.get().is_empty());
+    let approved =
+        approve(&job.sheets, &job.findings).filter(|sheets| !sheets.get().is_empty());
     let end = match &approved {
         Some(sheets) => {
             files.extend(export::cut_files(sheets).into_iter().map(named));
@@ -268,18 +270,21 @@ fn templates(action: TemplateAction) -> Result<End, Failure> {
     match action {
         TemplateAction::List => {
             let line = |name: &&str| {
-                let read = Template::embedded(name).and_then(|s| template::read(s, name).ok());
-                let about = read.map(|template| template.material.name).unwrap_or_default();
+                let read =
+                    template::embedded(name).and_then(|s| template::read(s, name).ok());
+                let about =
+                    read.map(|template| template.material.name).unwrap_or_default();
                 format!("{name:14} {about}\n")
             };
             Ok(print(&template::names().iter().map(line).collect::<String>()))
         }
-        TemplateAction::Show { name } => match Template::embedded(&name) {
+        TemplateAction::Show { name } => match template::embedded(&name) {
             Some(source) => Ok(print(source)),
             None => Err(InputError::BadTemplate(template::unknown_name(&name)).into()),
         },
         TemplateAction::Check { file } => {
-            let name = file.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+            let name =
+                file.file_stem().unwrap_or_default().to_string_lossy().into_owned();
             let text = input::text(&file)?;
             template::read(&text, &name).map_err(InputError::BadTemplate)?;
             let _ = writeln!(std::io::stderr(), "{}: nothing wrong", file.display());

@@ -82,7 +82,8 @@ impl Terminal {
     /// Shows progress unless told to be quiet; asks `stop` whether to stop.
     pub fn new(voice: Voice, stop: Arc<AtomicBool>) -> Self {
         let bar = if voice.quiet { ProgressBar::hidden() } else { ProgressBar::new(1) };
-        if let Ok(style) = ProgressStyle::with_template("{msg:10} {wide_bar} {pos}/{len}") {
+        if let Ok(style) = ProgressStyle::with_template("{msg:10} {wide_bar} {pos}/{len}")
+        {
             bar.set_style(style);
         }
         Self { bar, stop }

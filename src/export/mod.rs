@@ -22,3 +22,50 @@ pub use svg::svg;
 
 /// Width of a drawn line in SVG and PDF, mm: thin enough to be a cut for every driver.
 const LINE_WIDTH: f64 = 0.025;
+
+use crate::gate::Approved;
+use crate::geometry::Point2;
+use crate::lettering::letter;
+use crate::sheets::Sheet;
+
+/// A file by its path inside the job directory.
+pub type File = (String, Vec<u8>);
+
+/// All files of approved sheets: DXF, SVG and a picture of each, and one PDF of all.
+pub fn cut_files(approved: &Approved<&Vec<Sheet>>) -> Vec<File> {
+    let sheets = approved.get();
+    let mut files = Vec::new();
+    for sheet in sheets.iter() {
+        let path = |ending: &str| format!("sheets/{}.{ending}", sheet.id);
+        files.push((path("dxf"), dxf(sheet)));
+        files.push((path("svg"), svg(sheet)));
+        files.extend(
+            png(sheet, &PngLook::default()).ok().map(|bytes| (path("png"), bytes)),
+        );
+    }
+    files.push(("sheets/sheets.pdf".to_owned(), pdf(sheets)));
+    files
+}
+
+/// Pictures of sheets that were refused, stamped across.
+pub fn stamped_previews(sheets: &[Sheet]) -> Vec<File> {
+    let picture = |sheet: &Sheet| {
+        let stamp = stamp(sheet, "NOT FOR CUTTING");
+        let look = PngLook { stamp: &stamp, ..PngLook::default() };
+        Some((format!("preview/{}.png", sheet.id), png(sheet, &look).ok()?))
+    };
+    sheets.iter().filter_map(picture).collect()
+}
+
+/// Letters from the lower left to the upper right corner of a sheet.
+fn stamp(sheet: &Sheet, text: &str) -> Vec<Vec<Point2>> {
+    let Ok(lettering) = letter(text, 1.0) else { return Vec::new() };
+    let along = crate::geometry::Vector2::new(sheet.width, sheet.height) * 0.8;
+    let size = along.norm() / lettering.width;
+    let (along, start) = (along.normalize(), along / 8.0);
+    let up = crate::geometry::Vector2::new(-along.y, along.x);
+    let place = |p: &Point2| {
+        Point2::from(start + along * (p.x * size) + up * ((p.y - 0.5) * size))
+    };
+    lettering.strokes.iter().map(|s| s.iter().map(place).collect()).collect()
+}

@@ -140,7 +140,8 @@ fn sheets(job: &Job) -> Vec<Value> {
 }
 
 fn sheet_entry(job: &Job, sheet: &Sheet, nested: &NestedSheet) -> Value {
-    let area = |placement: &crate::nest::Placement| job.parts[placement.shape].region.area();
+    let area =
+        |placement: &crate::nest::Placement| job.parts[placement.shape].region.area();
     let used: f64 = nested.placements.iter().map(area).sum();
     let placements = nested.placements.iter().map(|p| {
         json!({
@@ -168,7 +169,8 @@ fn assembly(parts: &[Part]) -> Vec<Value> {
     let step = |(k, part): (usize, &Part)| {
         let Body::Strip(body) = &part.body;
         let onto = body.slits.iter().filter(|(slit, _)| slit.from == Opening::Bottom);
-        let onto = onto.map(|(slit, partner)| json!({"node": slit.node, "part": partner}));
+        let onto =
+            onto.map(|(slit, partner)| json!({"node": slit.node, "part": partner}));
         json!({
             "step": k + 1,
             "part": part.id,
@@ -212,7 +214,12 @@ fn cost(job: &Job, template: &Template) -> Option<f64> {
         let by_area = template.material.price_per_m2;
         sheet.price.or(by_area.map(|p| p * sheet.width_mm * sheet.height_mm * 1e-6))
     };
-    job.layout.sheets.iter().map(price).sum::<Option<f64>>().map(|cost| rounded(cost, 100.0))
+    job.layout
+        .sheets
+        .iter()
+        .map(price)
+        .sum::<Option<f64>>()
+        .map(|cost| rounded(cost, 100.0))
 }
 
 fn path_length(path: &Path) -> f64 {

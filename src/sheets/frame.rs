@@ -69,7 +69,8 @@ fn bar(at: Point2, height: f64) -> Vec<Path> {
 }
 
 fn written(text: &str, cap: f64, at: Point2) -> Vec<Path> {
-    let strokes = letter(text, cap).map(|lettering| lettering.strokes).unwrap_or_default();
+    let strokes =
+        letter(text, cap).map(|lettering| lettering.strokes).unwrap_or_default();
     let moved = |stroke: Vec<Point2>| stroke.iter().map(|p| at + p.coords).collect();
     strokes.into_iter().map(|stroke| Path::Open(moved(stroke))).collect()
 }

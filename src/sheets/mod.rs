@@ -43,7 +43,8 @@ impl Laying<'_> {
             near_first(nested).into_iter().flat_map(|p| self.strokes(p)).collect();
         // Stable: within an operation parts stay in their order.
         strokes.sort_by_key(|stroke| stroke.operation);
-        let frame = self.frame.map_or_else(Vec::new, |frame| frame.paths(stock, index, count));
+        let frame =
+            self.frame.map_or_else(Vec::new, |frame| frame.paths(stock, index, count));
         Sheet {
             id: format!("sheet-{:02}", index + 1),
             width: stock.width,
@@ -89,7 +90,8 @@ fn near_first(sheet: &NestedSheet) -> Vec<&Placement> {
     let mut at = Vector2::zeros();
     while !left.is_empty() {
         let off = |p: &Placement| (Vector2::new(p.x, p.y) - at).norm_squared();
-        let nearest = (0..left.len()).min_by(|&a, &b| off(left[a]).total_cmp(&off(left[b])));
+        let nearest =
+            (0..left.len()).min_by(|&a, &b| off(left[a]).total_cmp(&off(left[b])));
         let next = left.remove(nearest.unwrap_or(0));
         at = Vector2::new(next.x, next.y);
         order.push(next);

@@ -1,0 +1,86 @@
+//! What can be wrong with a template.
+
+use miette::Diagnostic;
+use std::fmt;
+use thiserror::Error;
+
+/// One thing wrong with a template.
+#[derive(Debug, Clone, PartialEq, Error, Diagnostic)]
+#[allow(missing_docs, reason = "the messages say what the fields are")]
+pub enum Fault {
+    #[error("line {line}: {message}")]
+    #[diagnostic(
+        code(template::bad_toml),
+        help("compare with `finwright template show pmma-cast-3`")
+    )]
+    BadToml { line: usize, message: String },
+
+    #[error("line {line}: there is no key \"{found}\" in [{table}]")]
+    #[diagnostic(
+        code(template::unknown_key),
+        help("the nearest known key is \"{nearest}\"; templates/README.md lists all")
+    )]
+    UnknownKey { line: usize, table: String, found: String, nearest: String },
+
+    #[error("[{table}] has no \"{key}\"")]
+    #[diagnostic(
+        code(template::missing_key),
+        help(
+            "copy the line from `finwright template show pmma-cast-3` and measure its value"
+        )
+    )]
+    MissingKey { table: String, key: String },
+
+    #[error("line {line}: {key} is {found}, but {wanted} is needed")]
+    #[diagnostic(
+        code(template::wrong_type),
+        help("write the value as in the other templates")
+    )]
+    WrongType { line: usize, key: String, found: String, wanted: &'static str },
+
+    #[error("line {line}: {key} is {value}, outside {least} to {most}")]
+    #[diagnostic(
+        code(template::out_of_range),
+        help("check the unit at the end of the key: _mm, _deg, _percent, ...")
+    )]
+    OutOfRange { line: usize, key: String, value: f64, least: f64, most: f64 },
+
+    #[error("{message}")]
+    #[diagnostic(code(template::contradiction), help("change one of the two values"))]
+    Contradiction { message: String },
+
+    #[error("there is no template \"{found}\"")]
+    #[diagnostic(
+        code(template::unknown_name),
+        help(
+            "the nearest is \"{nearest}\"; `finwright template list` shows all, and a path \
+             to a .toml file is read too"
+        )
+    )]
+    UnknownName { found: String, nearest: String },
+}
+
+/// Everything wrong with a template.
+#[derive(Debug, Clone, PartialEq)]
+pub struct TemplateErrors {
+    /// Name of the template.
+    pub name: String,
+    /// At least one fault.
+    pub faults: Vec<Fault>,
+}
+
+impl fmt::Display for TemplateErrors {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "template \"{}\" cannot be used", self.name)?;
+        for fault in &self.faults {
+            let code = fault.code().map(|code| code.to_string()).unwrap_or_default();
+            let help = fault.help().map(|help| help.to_string()).unwrap_or_default();
+            write!(f, "\n  {fault}\n    {code}: {help}")?;
+        }
+        Ok(())
+    }
+}
+
+impl std::error::Error for TemplateErrors {}
+
+impl Diagnostic for TemplateErrors {}

@@ -1,0 +1,289 @@
+//! Every key a template may have: its kind, whether it is needed, and its range.
+
+use crate::template::Template;
+use crate::template::error::Fault;
+use toml::{Table, Value};
+
+/// What a value has to be.
+#[derive(Debug, Clone, Copy)]
+enum Kind {
+    /// A number from the first to the second.
+    Number(f64, f64),
+    Whole,
+    Flag,
+    Text,
+    /// One of these words.
+    Word(&'static [&'static str]),
+}
+
+struct Key {
+    name: &'static str,
+    kind: Kind,
+    needed: bool,
+}
+
+const fn need(name: &'static str, kind: Kind) -> Key {
+    Key { name, kind, needed: true }
+}
+
+const fn may(name: &'static str, kind: Kind) -> Key {
+    Key { name, kind, needed: false }
+}
+
+const MATERIAL: &[Key] = &[
+    need("name", Kind::Text),
+    need("thickness_mm", Kind::Number(0.05, 50.0)),
+    need("thickness_least_mm", Kind::Number(0.05, 50.0)),
+    need("thickness_most_mm", Kind::Number(0.05, 50.0)),
+    need("kerf_mm", Kind::Number(0.0, 2.0)),
+    need("clearance_mm", Kind::Number(-1.0, 2.0)),
+    need("web_mm", Kind::Number(0.0, 100.0)),
+    need("web_least_mm", Kind::Number(0.0, 100.0)),
+    need("relief_radius_mm", Kind::Number(0.0, 10.0)),
+    need("e_modulus_mpa", Kind::Number(1.0, 1e6)),
+    need("density_kg_m3", Kind::Number(1.0, 3e4)),
+    need("cut_speed_mm_s", Kind::Number(0.01, 1e4)),
+    need("engrave_speed_mm_s", Kind::Number(0.01, 1e5)),
+    may("price_per_m2", Kind::Number(0.0, 1e6)),
+    may("grain", Kind::Flag),
+];
+const BEND: &[Key] = &[
+    need("long_term", Kind::Number(0.0, 1e4)),
+    need("model", Kind::Number(0.0, 1e4)),
+    need("crack", Kind::Number(0.0, 1e4)),
+    need("fold_marks", Kind::Word(&["none", "engrave", "score"])),
+];
+const JOINT: &[Key] = &[
+    need("overhang_mm", Kind::Number(0.0, 500.0)),
+    may("lap_split", Kind::Number(0.3, 0.7)),
+    need("depth_allowance_mm", Kind::Number(0.0, 5.0)),
+    need("mouth_chamfer_mm", Kind::Number(0.0, 20.0)),
+    need("mouth_chamfer_deg", Kind::Number(0.0, 60.0)),
+    need("setback_mm", Kind::Number(0.0, 50.0)),
+    need("connector_thickness_mm", Kind::Number(0.05, 50.0)),
+    need("rod_diameter_mm", Kind::Number(0.1, 100.0)),
+];
+const SHEET: &[Key] = &[
+    need("width_mm", Kind::Number(10.0, 1e5)),
+    need("height_mm", Kind::Number(10.0, 1e5)),
+    need("margin_mm", Kind::Number(0.0, 1e3)),
+    need("spacing_mm", Kind::Number(0.0, 1e3)),
+    may("count", Kind::Whole),
+    may("price", Kind::Number(0.0, 1e6)),
+];
+const OUTPUT: &[Key] = &[
+    may("profile", Kind::Word(&["generic"])),
+    may("frame", Kind::Flag),
+    may("lettering_mm", Kind::Number(1.0, 50.0)),
+    // One file per part is not built yet.
+    may("one_file_per", Kind::Word(&["sheet"])),
+];
+const GATE: &[Key] = &[
+    may("play_mm", Kind::Number(0.0, 10.0)),
+    may("sway_limit", Kind::Text),
+    may("planarity_warn_percent", Kind::Number(0.0, 5.0)),
+    may("planarity_limit_percent", Kind::Number(0.0, 5.0)),
+    may("crossing_warn_deg", Kind::Number(0.0, 90.0)),
+    may("crossing_least_deg", Kind::Number(5.0, 90.0)),
+];
+const TABLES: &[(&str, &[Key])] = &[
+    ("material", MATERIAL),
+    ("bend", BEND),
+    ("joint", JOINT),
+    ("sheet", SHEET),
+    ("output", OUTPUT),
+    ("gate", GATE),
+];
+
+/// All keys with their tables.
+#[cfg(test)]
+pub(super) fn all() -> impl Iterator<Item = (&'static str, &'static str)> {
+    let tables = TABLES.iter();
+    tables.flat_map(|(table, keys)| keys.iter().map(move |key| (*table, key.name)))
+}
+
+/// The known name most like the one found.
+pub(super) fn nearest<'a>(
+    found: &str,
+    known: impl IntoIterator<Item = &'a str>,
+) -> String {
+    let off = |name: &&str| strsim::damerau_levenshtein(found, name);
+    // A known name that begins as the found one does is what was meant, most often.
+    let begins = |name: &&str| !name.starts_with(found);
+    known
+        .into_iter()
+        .min_by_key(|name| (begins(name), off(name)))
+        .unwrap_or_default()
+        .into()
+}
+
+/// A fault of TOML itself, with its line.
+pub(super) fn syntax(source: &str, error: &toml::de::Error) -> Fault {
+    let end = error.span().map_or(0, |span| span.start.min(source.len()));
+    let line = 1 + source.get(..end).unwrap_or_default().matches('\n').count();
+    Fault::BadToml { line, message: error.message().to_owned() }
+}
+
+/// Unknown and missing keys, wrong kinds, values out of range.
+pub(super) fn faults(file: &Table, source: &str) -> Vec<Fault> {
+    let mut faults = Vec::new();
+    let known = || TABLES.iter().map(|(table, _)| *table);
+    for found in file.keys().filter(|found| !known().any(|table| table == found.as_str()))
+    {
+        faults.push(Fault::UnknownKey {
+            line: line(source, "", found),
+            table: "the file".to_owned(),
+            found: found.clone(),
+            nearest: nearest(found, known()),
+        });
+    }
+    for (table, keys) in TABLES {
+        match file.get(*table) {
+            Some(Value::Table(found)) if *table != "sheet" => {
+                faults.extend(table_faults(table, found, keys, source));
+            }
+            Some(Value::Array(sheets)) if *table == "sheet" => {
+                for sheet in sheets.iter().filter_map(Value::as_table) {
+                    faults.extend(table_faults(table, sheet, keys, source));
+                }
+            }
+            None if keys.iter().any(|key| key.needed) => {
+                let table = table.to_string();
+                faults.push(Fault::MissingKey {
+                    table,
+                    key: "(the whole table)".to_owned(),
+                });
+            }
+            None => {}
+            Some(_) => faults.push(Fault::WrongType {
+                line: line(source, "", table),
+                key: table.to_string(),
+                found: "something else".to_owned(),
+                wanted: if *table == "sheet" { "[[sheet]]" } else { "a [table]" },
+            }),
+        }
+    }
+    faults
+}
+
+fn table_faults(table: &str, found: &Table, keys: &[Key], source: &str) -> Vec<Fault> {
+    let mut faults = Vec::new();
+    for (name, value) in found {
+        match keys.iter().find(|key| key.name == name) {
+            Some(key) => {
+                faults.extend(value_fault(key, value, line(source, table, name)))
+            }
+            None => faults.push(Fault::UnknownKey {
+                line: line(source, table, name),
+                table: table.to_owned(),
+                found: name.clone(),
+                nearest: nearest(name, keys.iter().map(|key| key.name)),
+            }),
+        }
+    }
+    let missing = keys.iter().filter(|key| key.needed && !found.contains_key(key.name));
+    faults.extend(missing.map(|key| Fault::MissingKey {
+        table: table.to_owned(),
+        key: key.name.to_owned(),
+    }));
+    faults
+}
+
+fn value_fault(key: &Key, value: &Value, line: usize) -> Option<Fault> {
+    let number = match value {
+        Value::Float(number) => Some(*number),
+        Value::Integer(number) => Some(*number as f64),
+        _ => None,
+    };
+    let wanted = match (key.kind, number, value) {
+        (Kind::Number(least, most), Some(value), _) => {
+            let key = key.name.to_owned();
+            return (!(least..=most).contains(&value)).then_some(Fault::OutOfRange {
+                line,
+                key,
+                value,
+                least,
+                most,
+            });
+        }
+        (Kind::Number(..), ..) => "a number",
+        (Kind::Whole, _, Value::Integer(count)) if *count >= 0 => return None,
+        (Kind::Whole, ..) => "a whole number",
+        (Kind::Flag, _, Value::Boolean(_)) => return None,
+        (Kind::Flag, ..) => "true or false",
+        (Kind::Text, _, Value::String(_)) => return None,
+        (Kind::Text, ..) => "a text in quotes",
+        (Kind::Word(words), _, Value::String(word)) if words.contains(&word.as_str()) => {
+            return None;
+        }
+        (Kind::Word(&["none", ..]), ..) => "\"none\", \"engrave\" or \"score\"",
+        (Kind::Word(&["sheet"]), ..) => "\"sheet\" (the only one built so far)",
+        (Kind::Word(_), ..) => "\"generic\" (the only one built so far)",
+    };
+    Some(Fault::WrongType {
+        line,
+        key: key.name.to_owned(),
+        found: value.to_string(),
+        wanted,
+    })
+}
+
+/// Line of a key in its table, from 1; 0 if it cannot be found (inline tables).
+fn line(source: &str, table: &str, key: &str) -> usize {
+    let mut current = "";
+    for (index, text) in source.lines().enumerate() {
+        let text = text.trim();
+        if text.starts_with('[') {
+            current = text.trim_matches(['[', ']']).split(']').next().unwrap_or_default();
+            if table.is_empty() && current == key {
+                return index + 1;
+            }
+        }
+        let name = text.split('=').next().unwrap_or_default().trim().trim_matches('"');
+        if (table.is_empty() || current == table) && name == key {
+            return index + 1;
+        }
+    }
+    0
+}
+
+/// Values that do not go together.
+pub(super) fn contradictions(template: &Template) -> Vec<Fault> {
+    let (material, bend, gate) = (&template.material, &template.bend, &template.gate);
+    let mut messages = Vec::new();
+    let (least, most) = (material.thickness_least_mm, material.thickness_most_mm);
+    if !(least <= material.thickness_mm && material.thickness_mm <= most) {
+        let t = material.thickness_mm;
+        messages.push(format!("thickness_mm {t} is outside its range {least} to {most}"));
+    }
+    let mut order = |what: &str, low: f64, high: f64| {
+        if low > high {
+            messages.push(format!("{what}: {low} is more than {high}"));
+        }
+    };
+    order("web_least_mm above web_mm", material.web_least_mm, material.web_mm);
+    order("bend.crack above bend.model", bend.crack, bend.model);
+    order("bend.model above bend.long_term", bend.model, bend.long_term);
+    order(
+        "planarity_warn_percent above planarity_limit_percent",
+        gate.planarity_warn_percent,
+        gate.planarity_limit_percent,
+    );
+    order(
+        "crossing_least_deg above crossing_warn_deg",
+        gate.crossing_least_deg,
+        gate.crossing_warn_deg,
+    );
+    for (index, sheet) in template.sheet.iter().enumerate() {
+        let smaller = sheet.width_mm.min(sheet.height_mm);
+        order(
+            &format!("margins wider than sheet {}", index + 1),
+            2.0 * sheet.margin_mm + 1.0,
+            smaller,
+        );
+    }
+    if template.sheet.is_empty() {
+        messages.push("there is no [[sheet]]".to_owned());
+    }
+    messages.into_iter().map(|message| Fault::Contradiction { message }).collect()
+}

@@ -1,0 +1,106 @@
+"""A job directory opened: the manifest, the structure, the parts and what each sheet's files show."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import dataclass
+from math import cos, radians, sin
+from pathlib import Path
+
+import numpy as np
+import shapely
+
+from space import Space
+
+
+@dataclass
+class Strip:
+    """A strip part; `nodes`, `bottoms` and `tops` run in the direction of travel."""
+
+    id: str
+    nodes: list[int]
+    closed: bool
+    bottoms: np.ndarray
+    tops: np.ndarray
+    folds: list[dict]
+    slits: list[dict]
+    splices: list[tuple[int, int]]
+    outline: shapely.Polygon
+
+    def sides(self, k: int) -> tuple[int | None, int | None]:
+        """The nodes before and after the k-th along the strip: its own, or the far end of a fin cut by a splice."""
+        before = self.nodes[k - 1] if k > 0 else self.across_splice(at_start=True)
+        after = self.nodes[k + 1] if k + 1 < len(self.nodes) else self.across_splice(at_start=False)
+        return before, after
+
+    def across_splice(self, at_start: bool) -> int | None:
+        node = self.nodes[0] if at_start else self.nodes[-1]
+        for i, j in self.splices:
+            if len(self.nodes) == 1:
+                # Nothing but the order of travel in which the fin is listed tells on which side it lies.
+                if (node == j) if at_start else (node == i):
+                    return i if at_start else j
+            elif node in (i, j) and (self.nodes[1] if at_start else self.nodes[-2]) not in (i, j):
+                return j if node == i else i
+        return None
+
+    def slit_at(self, k: int) -> dict | None:
+        """A closed strip has no slit where it was opened."""
+        if self.closed and k in (0, len(self.nodes) - 1):
+            return None
+        return next((slit for slit in self.slits if slit["node"] == self.nodes[k]), None)
+
+    def fins(self) -> list[tuple[int, int]]:
+        pairs = list(zip(self.nodes, self.nodes[1:])) + self.splices
+        return [(min(i, j), max(i, j)) for i, j in pairs]
+
+
+class Job:
+    def __init__(self, folder: Path) -> None:
+        self.folder = folder
+        self.manifest = json.loads((folder / "job.json").read_text("utf-8"))
+        self.structure = json.loads((folder / "structure.json").read_text("utf-8"))
+
+    def open(self) -> None:
+        """Called when the manifest has been found to be of the right shape."""
+        self.space = Space(self.structure)
+        self.parts = {part["id"]: part for part in self.manifest["parts"]}
+        self.regions = {name: _region(part) for name, part in self.parts.items()}
+        self.strips = {name: _strip(part) for name, part in self.parts.items() if part.get("strip")}
+        material = self.manifest["material"]
+        self.thickness, self.kerf, self.clearance = (float(material[key]) for key in ("thickness", "kerf", "clearance"))
+
+    def file(self, name: str) -> Path:
+        """Names of sheet files count from the job directory; a bare file name is looked for in sheets/."""
+        return self.folder / name if "/" in name else self.folder / "sheets" / name
+
+    def placed(self, placement: dict) -> shapely.Polygon:
+        """A part's nominal region on its sheet: turned counter-clockwise, then moved."""
+        turn = radians(placement["angle_deg"])
+        matrix = np.array([[cos(turn), sin(turn)], [-sin(turn), cos(turn)]])
+        shift = np.array([placement["x"], placement["y"]])
+        return shapely.transform(self.regions[placement["part"]], lambda points: points @ matrix + shift)
+
+    def stock(self, sheet: dict) -> dict:
+        """The stock a sheet was cut from, by its size; of several of one size the one that asks least."""
+        fits = [s for s in self.manifest["sheet_stock"] if abs(s["width"] - sheet["width"]) < 1e-6 and abs(s["height"] - sheet["height"]) < 1e-6]
+        return min(fits, key=lambda s: (s["margin"], s["spacing"]))
+
+
+def _region(part: dict) -> shapely.Polygon:
+    return shapely.Polygon(part["outline"], part["holes"])
+
+
+def _strip(part: dict) -> Strip:
+    strip = part["strip"]
+    return Strip(
+        part["id"],
+        strip["nodes"],
+        strip["closed"],
+        np.array([axis["bottom"] for axis in strip["axes"]], float),
+        np.array([axis["top"] for axis in strip["axes"]], float),
+        strip["folds"],
+        strip["slits"],
+        [tuple(splice["fin"]) for splice in strip["splices"]],
+        _region(part),
+    )

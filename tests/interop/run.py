@@ -1,0 +1,134 @@
+"""Makes jobs with a finwright binary and checks each from outside: `run.py BINARY [--meshes DIR]`; exits 1 on any failure."""
+
+from __future__ import annotations
+
+import argparse
+import subprocess
+import sys
+import tempfile
+import time
+from dataclasses import dataclass
+from pathlib import Path
+
+from check_job import check_same
+
+HERE = Path(__file__).resolve().parent
+ACCEPT = ["--accept-flexible", "interop test"]
+REFUSED = 3
+
+# Further arguments of `make` for embedded examples that need them; all others are made as they are.
+EXAMPLES: dict[str, list[str]] = {}
+
+# Outside meshes, looked for in --meshes. One point or direction for all axes makes every fin planar; the choices below leave the
+# widest smallest angle between fins, and scales give the shortest fins about 15 mm. YasIsland has nodes under 1 degree whatever the
+# direction or point, conical1 under 5: the gate is expected to refuse them in 3 mm sheet.
+MESHES: dict[str, list[str]] = {
+    "quad_dome.obj": ["--axes", "point:5,5,-0.44", "--units", "m", "--scale", "1:20"],
+    "conical1.obj": ["--axes", "point:0.1,1.4,-2", "--units", "m", "--scale", "1:20"],
+    "botanic-garden-bubble-0.obj": ["--axes", "point:-0.44,4.27,-1.67", "--units", "m", "--scale", "1:10"],
+    "6-sub-lifted.obj": ["--axes", "0,0,1", "--units", "m", "--scale", "1:14"],
+    "YasIsland.obj": ["--axes", "0,0,1", "--units", "m", "--scale", "1:20"],
+}
+
+# Cases that must be refused even with a reason for being flexible: the check is then that no cut file exists.
+REFUSALS: set[str] = set()
+
+
+@dataclass
+class Case:
+    name: str
+    structure: list[str]
+    arguments: list[str]
+
+
+class Runner:
+    def __init__(self, binary: Path, scratch: Path, extra: list[str]) -> None:
+        self.binary, self.scratch, self.extra = binary, scratch, extra
+        self.passed, self.failed = 0, []
+
+    def note(self, name: str, holds: bool, text: str = "") -> None:
+        print(f"{'PASS' if holds else 'FAIL'} {name}{'  ' + text if text else ''}", flush=True)
+        if holds:
+            self.passed += 1
+        else:
+            self.failed.append(name)
+
+    def finwright(self, *words: str) -> subprocess.CompletedProcess:
+        return subprocess.run([str(self.binary), *words], cwd=self.scratch, capture_output=True, text=True, check=False)
+
+    def make(self, case: Case, folder: str) -> subprocess.CompletedProcess:
+        return self.finwright("make", *case.structure, *case.arguments, *self.extra, "-q", "-o", folder)
+
+    def run(self, case: Case, again: bool) -> None:
+        """Makes the job, once more with a reason where the gate refuses it, and checks what was written."""
+        start = time.monotonic()
+        folder = case.name.replace(" ", "-")
+        made = self.make(case, folder)
+        how = ""
+        if made.returncode == REFUSED:
+            cut_files = [p.name for p in (self.scratch / folder).rglob("*") if p.suffix in (".dxf", ".svg", ".pdf")]
+            self.note(f"{case.name}: refused without cut files", not cut_files, ", ".join(cut_files[:3]))
+            if case.name in REFUSALS:
+                return
+            case.arguments = [*case.arguments, *ACCEPT]
+            made, how = self.make(case, folder), "flexible accepted, "
+        if made.returncode != 0:
+            self.note(case.name, False, f"make ended with {made.returncode}: {made.stderr.strip()[-600:]}")
+            return
+        if case.name in REFUSALS:
+            self.note(f"{case.name}: refused", False, "it was made")
+            return
+        built = time.monotonic() - start
+        checked = subprocess.run([sys.executable, str(HERE / "check_job.py"), folder], cwd=self.scratch, capture_output=True, text=True, check=False)
+        print(checked.stdout + checked.stderr, end="")
+        self.note(case.name, checked.returncode == 0, f"{how}made in {built:.1f} s, checked in {time.monotonic() - start - built:.1f} s")
+        if again:
+            self.compare(case, folder)
+
+    def compare(self, case: Case, folder: str) -> None:
+        made = self.make(case, f"{folder}-again")
+        if made.returncode != 0:
+            self.note(f"{case.name}: same bytes again", False, f"make ended with {made.returncode}")
+            return
+        report = check_same(self.scratch / folder, self.scratch / f"{folder}-again")
+        print(report.text())
+        self.note(f"{case.name}: same bytes again", not report.misses())
+
+
+def cases(runner: Runner, meshes: Path | None) -> list[Case]:
+    found = [Case("default", [], [])]
+    listed = runner.finwright("example", "list")
+    names = [line.split()[0] for line in listed.stdout.splitlines() if line.strip()]
+    runner.note("example list", listed.returncode == 0 and bool(names), ", ".join(names))
+    for name in names:
+        written = runner.finwright("example", "write", name, "-o", f"{name}.json")
+        if written.returncode != 0:
+            runner.note(f"example {name}", False, written.stderr.strip()[-300:])
+            continue
+        found.append(Case(f"example {name}", [f"{name}.json"], EXAMPLES.get(name, [])))
+    for name, arguments in MESHES.items() if meshes else ():
+        found.append(Case(f"mesh {Path(name).stem}", [str((meshes / name).resolve())], arguments))
+    return found
+
+
+def main() -> int:
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("binary", type=Path)
+    parser.add_argument("--meshes", type=Path, metavar="DIR", help="also the outside meshes found there")
+    parser.add_argument("--only", default="", metavar="WORD", help="only cases whose name has WORD")
+    parser.add_argument("--effort", choices=("quick", "normal", "thorough"), help="of the nesting")
+    options = parser.parse_args()
+    with tempfile.TemporaryDirectory(prefix="finwright-interop-") as scratch:
+        extra = ["--effort", options.effort] if options.effort else []
+        runner = Runner(options.binary.resolve(), Path(scratch), extra)
+        for case in cases(runner, options.meshes):
+            if options.only in case.name:
+                runner.run(case, again=case.name == "default")
+    for name in runner.failed:
+        print(f"failed: {name}")
+    print(f"{runner.passed} passed, {len(runner.failed)} failed")
+    return 1 if runner.failed else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
