@@ -131,11 +131,11 @@ fn vault() -> Draft {
 fn dome() -> Draft {
     const SEGMENTS: usize = 32;
     const RINGS: usize = 6;
-    const RADIUS: f64 = 420.0;
+    const RADIUS: f64 = 460.0;
     let mut draft = Draft { name: "dome".into(), ..Draft::default() };
     for ring in 0..RINGS {
         // Angle of the normal from the vertical, from the foot to the top ring.
-        let tilt = (62.0 - 6.5 * ring as f64) * PI / 180.0;
+        let tilt = (66.0 - 5.2 * ring as f64) * PI / 180.0;
         for segment in 0..SEGMENTS {
             let turn = 2.0 * PI * segment as f64 / SEGMENTS as f64;
             let normal = Vector3::new(
@@ -224,47 +224,38 @@ fn facade() -> Draft {
     .with_depth(15.0, 15.0)
 }
 
-/// `sectors` patches of 4 × 4 cells around one node on a sphere, axes through its centre.
+/// `sectors` patches of 5 × 5 cells around one node on a sphere, axes through its centre.
+/// In plan each patch is a square corner under the map z^(4 / sectors), so that lines run
+/// smoothly from one patch into the next.
 fn star(name: &str, sectors: usize) -> Draft {
-    const CELLS: usize = 4;
-    const REACH: f64 = 150.0;
-    const RADIUS: f64 = 500.0;
-    let ray = |sector: usize| {
-        let turn = 2.0 * PI * (sector % sectors) as f64 / sectors as f64;
-        Vector3::new(trig::cos(turn), trig::sin(turn), 0.0)
-    };
-    let lifted = |plan: Vector3| {
-        let height = (RADIUS * RADIUS - plan.norm_squared()).sqrt();
-        plan + Vector3::z() * height
+    const CELLS: usize = 5;
+    const REACH: f64 = 230.0;
+    const RADIUS: f64 = 700.0;
+    let power = 4.0 / sectors as f64;
+    let lifted = |sector: usize, i: usize, j: usize| {
+        let (x, y) = (i as f64 / CELLS as f64, j as f64 / CELLS as f64);
+        let reach = REACH * libm::pow(x * x + y * y, power / 2.0);
+        let turn = power * (trig::atan2(y, x) + sector as f64 * PI / 2.0);
+        let height = (RADIUS * RADIUS - reach * reach).sqrt();
+        Vector3::new(reach * trig::cos(turn), reach * trig::sin(turn), height)
     };
     // Node 0 is the centre; then each sector with its first ray, without its last.
+    let first = |sector: usize| 1 + sector % sectors * CELLS * (CELLS + 1);
     let at = |sector: usize, i: usize, j: usize| match (i, j) {
         (0, 0) => 0,
-        (0, j) => {
-            1 + (sector + 1) % sectors * CELLS * (CELLS + 1) + (j - 1) * (CELLS + 1)
-        }
-        (i, j) => 1 + sector % sectors * CELLS * (CELLS + 1) + (i - 1) * (CELLS + 1) + j,
+        (0, j) => first(sector + 1) + (j - 1) * (CELLS + 1),
+        (i, j) => first(sector) + (i - 1) * (CELLS + 1) + j,
     };
-    let mut outs = vec![lifted(Vector3::zeros())];
+    let mut outs = vec![lifted(0, 0, 0)];
     let mut faces = Vec::new();
     for sector in 0..sectors {
-        let (a, b) = (ray(sector), ray(sector + 1));
-        for i in 1..=CELLS {
-            for j in 0..=CELLS {
-                let share = |k: usize| REACH * k as f64 / CELLS as f64;
-                outs.push(lifted(a * share(i) + b * share(j)));
-            }
-        }
-        for i in 0..CELLS {
-            for j in 0..CELLS {
-                faces.push(vec![
-                    at(sector, i, j),
-                    at(sector, i + 1, j),
-                    at(sector, i + 1, j + 1),
-                    at(sector, i, j + 1),
-                ]);
-            }
-        }
+        let nodes = (1..=CELLS).flat_map(|i| (0..=CELLS).map(move |j| (i, j)));
+        outs.extend(nodes.map(|(i, j)| lifted(sector, i, j)));
+        let cells = (0..CELLS).flat_map(|i| (0..CELLS).map(move |j| (i, j)));
+        faces.extend(cells.map(|(i, j)| {
+            let corners = [(i, j), (i + 1, j), (i + 1, j + 1), (i, j + 1)];
+            corners.map(|(i, j)| at(sector, i, j)).to_vec()
+        }));
     }
     let draft = Draft {
         name: name.into(),
