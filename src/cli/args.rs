@@ -130,6 +130,10 @@ pub struct InputArgs {
     #[arg(long, value_enum, default_value = "normal")]
     pub effort: EffortLevel,
 
+    /// Nest for this long instead; the result may then differ from run to run
+    #[arg(long, value_name = "SECONDS", conflicts_with = "effort", value_parser = seconds)]
+    pub time_limit: Option<f64>,
+
     /// Print one JSON object on standard output
     #[arg(long)]
     pub json: bool,
@@ -246,6 +250,13 @@ fn numbers(text: &str) -> Result<Vec<f64>, String> {
         _ => Err(format!("{word:?} is no number")),
     };
     text.split(',').map(number).collect()
+}
+
+fn seconds(text: &str) -> Result<f64, String> {
+    match numbers(text)?.as_slice() {
+        &[seconds] if seconds > 0.0 && seconds <= 1e6 => Ok(seconds),
+        _ => Err(format!("{text:?} is no number of seconds")),
+    }
 }
 
 fn scale(text: &str) -> Result<Scale, String> {

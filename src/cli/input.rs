@@ -15,7 +15,7 @@ use thiserror::Error;
 /// Why a job could not begin.
 #[derive(Debug, Error, Diagnostic)]
 #[allow(missing_docs, reason = "the messages say it")]
-pub enum InputError {
+pub(super) enum InputError {
     #[error("{} could not be read: {source}", path.display())]
     #[diagnostic(code(input::unreadable), help("give the path of a file that exists"))]
     Unreadable { path: PathBuf, source: std::io::Error },
@@ -43,7 +43,7 @@ pub enum InputError {
 }
 
 /// A structure that was read, with where it came from.
-pub struct Input {
+pub(super) struct Input {
     /// What was read, mm at model scale.
     pub draft: Draft,
     /// Name of the file, without its folder.
@@ -55,7 +55,7 @@ pub struct Input {
 }
 
 /// SHA-256 as hexadecimal digits.
-pub fn sha256(bytes: &[u8]) -> String {
+pub(super) fn sha256(bytes: &[u8]) -> String {
     Sha256::digest(bytes).iter().map(|byte| format!("{byte:02x}")).collect()
 }
 
@@ -63,12 +63,15 @@ pub fn sha256(bytes: &[u8]) -> String {
 ///
 /// # Errors
 /// [`InputError`] if there is none.
-pub fn structure(args: &InputArgs) -> Result<Input, InputError> {
+pub(super) fn structure(args: &InputArgs) -> Result<Input, InputError> {
     let named = args.structure.as_deref().unwrap_or(examples::ALL[0].name);
     let path = Path::new(named);
     let mut input = match examples::named(named) {
         Some(example) if !path.exists() => {
-            let draft = (example.draft)();
+            let mut draft = (example.draft)();
+            if let Some(axes) = args.axes.axes(&draft.positions, &draft.faces) {
+                draft.axes = axes;
+            }
             let sha256 = sha256(format!("{draft:?}").as_bytes());
             Input { draft, file: named.to_owned(), sha256, findings: Vec::new() }
         }
@@ -89,7 +92,7 @@ fn from_file(path: &Path, args: &InputArgs) -> Result<Input, InputError> {
     let bad = |source| InputError::BadStructure { path: path.to_owned(), source };
     let ending = path.extension().unwrap_or_default().to_string_lossy().to_lowercase();
     let (mut draft, facts) = match ending.as_str() {
-        "json" => (read_json(&text).map_err(bad)?, Vec::new()),
+        "json" => (read_json(&text, args.axes).map_err(bad)?, Vec::new()),
         "obj" => {
             let options = ObjOptions { unit: args.units, axes: args.axes };
             read_obj(&text, &options).map_err(bad)?
@@ -105,7 +108,7 @@ fn from_file(path: &Path, args: &InputArgs) -> Result<Input, InputError> {
 }
 
 /// The text of a file.
-pub fn text(path: &Path) -> Result<String, InputError> {
+pub(super) fn text(path: &Path) -> Result<String, InputError> {
     let bytes = std::fs::read(path)
         .map_err(|source| InputError::Unreadable { path: path.to_owned(), source })?;
     String::from_utf8(bytes).map_err(|error| InputError::NotText {
@@ -139,7 +142,7 @@ fn fixed(fix: &Fix, draft: &Draft) -> Option<Vec<usize>> {
 ///
 /// # Errors
 /// [`InputError`] if there is none, or it has faults.
-pub fn template(named: &str) -> Result<Template, InputError> {
+pub(super) fn template(named: &str) -> Result<Template, InputError> {
     let path = Path::new(named);
     if let Some(source) = template::embedded(named) {
         return Ok(template::read(source, named)?);

@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use thiserror::Error;
 
 /// A file of a job.
-pub struct JobFile {
+pub(super) struct JobFile {
     /// Path inside the job directory, with `/`.
     pub path: String,
     /// What is in it.
@@ -17,7 +17,7 @@ pub struct JobFile {
 /// Why a job directory could not be written.
 #[derive(Debug, Error, Diagnostic)]
 #[allow(missing_docs, reason = "the messages say it")]
-pub enum JobDirError {
+pub(super) enum JobDirError {
     #[error("{} is there already and was not written by finwright", dir.display())]
     #[diagnostic(
         code(job::foreign_directory),
@@ -34,7 +34,7 @@ pub enum JobDirError {
 ///
 /// # Errors
 /// [`JobDirError`]; then the place is as it was.
-pub fn write(dir: &Path, files: &[JobFile]) -> Result<(), JobDirError> {
+pub(super) fn write(dir: &Path, files: &[JobFile]) -> Result<(), JobDirError> {
     if !may_be_replaced(dir) {
         return Err(JobDirError::Foreign { dir: dir.to_owned() });
     }

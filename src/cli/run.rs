@@ -114,7 +114,7 @@ fn ordered(args: &InputArgs, voice: Voice) -> Result<Ordered, Failure> {
     let switch = Arc::clone(&stop);
     // Without a handler Ctrl-C just ends the process, and nothing has been written then.
     let _ = ctrlc::set_handler(move || switch.store(true, Ordering::Relaxed));
-    let mut terminal = Terminal::new(voice, stop);
+    let mut terminal = Terminal::new(voice, stop, args.time_limit);
     let draft = std::mem::take(&mut input.draft);
     let order = Order { draft, template: &template, effort: effort(args) };
     let job = job::run(order, &mut terminal);
@@ -130,6 +130,7 @@ fn effort(args: &InputArgs) -> Effort {
         EffortLevel::Normal => 8,
         EffortLevel::Thorough => 64,
     };
+    let trials = if args.time_limit.is_some() { u32::MAX } else { trials };
     Effort { trials, seed: args.seed }
 }
 

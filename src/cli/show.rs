@@ -7,10 +7,11 @@ use std::collections::BTreeMap;
 use std::io::{IsTerminal, Write};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::{Duration, Instant};
 
 /// How much is said.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Voice {
+pub(super) struct Voice {
     /// Only what went wrong.
     pub quiet: bool,
     /// Every finding.
@@ -22,14 +23,14 @@ const FEW: usize = 3;
 
 impl Voice {
     /// Says a line unless told to be quiet.
-    pub fn say(self, line: &str) {
+    pub(super) fn say(self, line: &str) {
         if !self.quiet {
             whisper(line);
         }
     }
 
     /// Says what was found, worst first, the first few of each kind.
-    pub fn findings(self, findings: &[Finding]) {
+    pub(super) fn findings(self, findings: &[Finding]) {
         let mut kinds: BTreeMap<(std::cmp::Reverse<Severity>, &str), Vec<&Finding>> =
             BTreeMap::new();
         for finding in findings {
@@ -73,24 +74,27 @@ fn title(severity: Severity) -> String {
 }
 
 /// A progress bar on stderr and a stop switch on Ctrl-C.
-pub struct Terminal {
+pub(super) struct Terminal {
     bar: ProgressBar,
     stop: Arc<AtomicBool>,
+    until: Option<Instant>,
 }
 
 impl Terminal {
-    /// Shows progress unless told to be quiet; asks `stop` whether to stop.
-    pub fn new(voice: Voice, stop: Arc<AtomicBool>) -> Self {
+    /// Shows progress unless told to be quiet; asks `stop` whether to stop. A search is
+    /// content with what it has after `limit` seconds.
+    pub(super) fn new(voice: Voice, stop: Arc<AtomicBool>, limit: Option<f64>) -> Self {
         let bar = if voice.quiet { ProgressBar::hidden() } else { ProgressBar::new(1) };
         if let Ok(style) = ProgressStyle::with_template("{msg:10} {wide_bar} {pos}/{len}")
         {
             bar.set_style(style);
         }
-        Self { bar, stop }
+        let until = limit.map(|limit| Instant::now() + Duration::from_secs_f64(limit));
+        Self { bar, stop, until }
     }
 
     /// Takes the bar off the screen.
-    pub fn finish(&self) {
+    pub(super) fn finish(&self) {
         self.bar.finish_and_clear();
     }
 }
@@ -104,5 +108,9 @@ impl Watch for Terminal {
 
     fn stopped(&self) -> bool {
         self.stop.load(Ordering::Relaxed)
+    }
+
+    fn enough(&self) -> bool {
+        self.until.is_some_and(|until| Instant::now() >= until)
     }
 }

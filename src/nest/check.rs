@@ -127,10 +127,9 @@ impl Checked<'_> {
         let bounds: Vec<(Point2, Point2)> =
             self.rings.iter().map(|r| bounds(r)).collect();
         let mut faults = Vec::new();
-        for inner in 0..self.rings.len() {
-            for outer in 0..self.rings.len() {
-                let [low, high] = [bounds[outer].0, bounds[outer].1];
-                let p = self.rings[inner][0];
+        for (inner, ring) in self.rings.iter().enumerate() {
+            let p = ring[0];
+            for (outer, &(low, high)) in bounds.iter().enumerate() {
                 let near = low.x <= p.x && p.x <= high.x && low.y <= p.y && p.y <= high.y;
                 if inner != outer && near && contains(&self.rings[outer], p) {
                     faults.push(self.overlap(inner, outer));

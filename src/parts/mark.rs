@@ -38,7 +38,12 @@ const GAP: f64 = 1.0;
 const NAME_EVERY: usize = 6;
 
 /// All marks of one piece of a strip.
-pub fn marks(piece: &Piece, name: &str, folds: &[Fold], marking: Marking) -> Vec<Mark> {
+pub(super) fn marks(
+    piece: &Piece,
+    name: &str,
+    folds: &[Fold],
+    marking: Marking,
+) -> Vec<Mark> {
     let mut marks = Vec::new();
     let last = piece.axes.len() - 1;
     for fin in 0..last {

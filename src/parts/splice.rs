@@ -18,7 +18,7 @@ use std::f64::consts::PI;
 const FLANK: f64 = 15.0 * PI / 180.0;
 
 /// A strip with its joints, ready to be cut into pieces.
-pub struct Whole<'a> {
+pub(super) struct Whole<'a> {
     /// Name for messages.
     pub name: &'a str,
     /// The flat strip.
@@ -33,7 +33,7 @@ pub struct Whole<'a> {
 ///
 /// # Errors
 /// [`PartFinding::NoPlaceForSplice`] if no fin can take a splice where one is needed.
-pub fn pieces(
+pub(super) fn pieces(
     whole: &Whole,
     fits: &dyn Fn(&[Point2]) -> bool,
 ) -> Result<Vec<Piece>, PartFinding> {
@@ -88,7 +88,7 @@ struct Tail {
 
 impl Whole<'_> {
     /// The strip in one piece.
-    pub fn uncut(&self) -> Piece {
+    pub(super) fn uncut(&self) -> Piece {
         self.piece([None, None])
     }
 

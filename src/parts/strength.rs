@@ -8,7 +8,7 @@ use crate::parts::unfold::{FlatAxis, FlatStrip};
 use std::collections::BTreeMap;
 
 /// A strip with the slits cut into it, by place.
-pub struct Slitted<'a> {
+pub(super) struct Slitted<'a> {
     /// Name for messages.
     pub name: &'a str,
     /// The flat strip.
@@ -20,7 +20,7 @@ pub struct Slitted<'a> {
 }
 
 /// Everything weak about a strip.
-pub fn weaknesses(slitted: &Slitted) -> Vec<PartFinding> {
+pub(super) fn weaknesses(slitted: &Slitted) -> Vec<PartFinding> {
     let places = slitted.slits.iter();
     let behind = places.filter_map(|(&place, slit)| slitted.behind(place, slit));
     let fins = 0..slitted.strip.axes.len() - 1;

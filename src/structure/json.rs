@@ -1,7 +1,7 @@
 //! Structures as JSON (contract §2).
 
 use crate::geometry::{Point3, Vector3};
-use crate::structure::{Draft, Structure};
+use crate::structure::{AxisRule, Draft, Structure};
 use crate::units::Unit;
 use miette::Diagnostic;
 use serde::{Deserialize, Serialize};
@@ -110,9 +110,11 @@ impl Reach {
 
 /// Reads a structure and turns its lengths into millimetres.
 ///
+/// `axes` may replace the file's axes; a point is in the file's units.
+///
 /// # Errors
 /// [`ReadError`] if the text is no structure of this format.
-pub fn read_json(text: &str) -> Result<Draft, ReadError> {
+pub fn read_json(text: &str, axes: AxisRule) -> Result<Draft, ReadError> {
     let bad = |error: serde_json::Error| ReadError::BadJson {
         line: error.line(),
         column: error.column(),
@@ -127,7 +129,7 @@ pub fn read_json(text: &str) -> Result<Draft, ReadError> {
     // Read from the text again: only then do errors have a line.
     let file: File = serde_json::from_str(text).map_err(bad)?;
     let nodes = file.positions.len();
-    let draft = Draft {
+    let mut draft = Draft {
         name: file.name,
         positions: file.positions.into_iter().map(Point3::from).collect(),
         axes: file.axes.into_iter().map(Vector3::from).collect(),
@@ -138,6 +140,9 @@ pub fn read_json(text: &str) -> Result<Draft, ReadError> {
         strips: file.strips,
         fixed: file.fixed,
     };
+    if let Some(axes) = axes.axes(&draft.positions, &draft.faces) {
+        draft.axes = axes;
+    }
     Ok(draft.scaled(file.units.millimetres()))
 }
 

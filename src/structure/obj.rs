@@ -155,14 +155,28 @@ fn axes(
     rule: AxisRule,
 ) -> Result<(Vec<Vector3>, Vec<StructureFinding>), ReadError> {
     let nodes = mesh.positions.len();
-    match rule {
-        AxisRule::Parallel(direction) => Ok((vec![direction; nodes], Vec::new())),
-        AxisRule::Through(point) => {
-            Ok((mesh.positions.iter().map(|p| p - point).collect(), Vec::new()))
-        }
-        AxisRule::File if mesh.axes.iter().any(Option::is_some) => given_axes(mesh),
-        AxisRule::File | AxisRule::Normal => {
-            Ok((normals(mesh), vec![StructureFinding::AxesFromNormals { nodes }]))
+    match rule.axes(&mesh.positions, &mesh.faces) {
+        Some(axes) => Ok((axes, Vec::new())),
+        None if mesh.axes.iter().any(Option::is_some) => given_axes(mesh),
+        None => Ok((
+            normals(&mesh.positions, &mesh.faces),
+            vec![StructureFinding::AxesFromNormals { nodes }],
+        )),
+    }
+}
+
+impl AxisRule {
+    /// The axes that this rule gives the nodes of a mesh; `None` leaves them to the file.
+    pub fn axes(
+        self,
+        positions: &[Point3],
+        faces: &[Vec<usize>],
+    ) -> Option<Vec<Vector3>> {
+        match self {
+            Self::File => None,
+            Self::Normal => Some(normals(positions, faces)),
+            Self::Parallel(direction) => Some(vec![direction; positions.len()]),
+            Self::Through(point) => Some(positions.iter().map(|p| p - point).collect()),
         }
     }
 }
@@ -182,11 +196,13 @@ fn given_axes(mesh: &Mesh) -> Result<(Vec<Vector3>, Vec<StructureFinding>), Read
     Ok(((0..nodes).map(|node| axis(node).unwrap_or(Vector3::z())).collect(), Vec::new()))
 }
 
-fn normals(mesh: &Mesh) -> Vec<Vector3> {
-    let mut normals = vec![Vector3::zeros(); mesh.positions.len()];
+/// Vertex normals weighted by area; a vertex without a face points up. Corners out of
+/// range are left for the check of the draft.
+fn normals(positions: &[Point3], faces: &[Vec<usize>]) -> Vec<Vector3> {
+    let mut normals = vec![Vector3::zeros(); positions.len()];
     let mut in_a_face = vec![false; normals.len()];
-    for face in &mesh.faces {
-        let area = area_vector(&mesh.positions, face);
+    for face in faces.iter().filter(|f| f.iter().all(|&node| node < positions.len())) {
+        let area = area_vector(positions, face);
         for &node in face {
             normals[node] += area;
             in_a_face[node] = true;

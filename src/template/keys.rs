@@ -171,7 +171,7 @@ fn table_faults(table: &str, found: &Table, keys: &[Key], source: &str) -> Vec<F
     for (name, value) in found {
         match keys.iter().find(|key| key.name == name) {
             Some(key) => {
-                faults.extend(value_fault(key, value, line(source, table, name)))
+                faults.extend(value_fault(key, value, line(source, table, name)));
             }
             None => faults.push(Fault::UnknownKey {
                 line: line(source, table, name),
