@@ -18,6 +18,8 @@ pub struct Order<'a> {
     pub template: &'a Template,
     /// How hard to nest.
     pub effort: Effort,
+    /// Why the structure may be flexible.
+    pub accepted_flexible: Option<String>,
 }
 
 /// How far a job came.
@@ -25,6 +27,8 @@ pub struct Order<'a> {
 pub struct Job {
     /// Everything found on the way.
     pub findings: Vec<Finding>,
+    /// Why the structure may be flexible, as ordered.
+    pub accepted_flexible: Option<String>,
     /// The structure as built; `None` if the draft was none.
     pub structure: Option<Structure>,
     /// The parts in the order of assembly.
@@ -47,7 +51,8 @@ pub struct Interrupted;
 /// [`Interrupted`] if the watch stopped the work.
 pub fn run(order: Order, watch: &mut dyn Watch) -> Result<Job, Interrupted> {
     let template = order.template;
-    let mut job = Job { stock: stock(template), ..Job::default() };
+    let accepted_flexible = order.accepted_flexible;
+    let mut job = Job { stock: stock(template), accepted_flexible, ..Job::default() };
     watch.progress("structure", 0, 1);
     let structure = match Structure::new(order.draft, &tolerance(template)) {
         Ok((structure, findings)) => {
@@ -82,7 +87,7 @@ pub fn run(order: Order, watch: &mut dyn Watch) -> Result<Job, Interrupted> {
         Err(error) => job.findings.push(error.into()),
     }
     watch.progress("sheets", 0, 1);
-    let frame = frame(template, name);
+    let frame = frame(template, name, job.accepted_flexible.as_deref());
     job.sheets = sheets::sheets(&Laying {
         parts: &job.parts,
         layout: &job.layout,
@@ -160,12 +165,14 @@ fn marking(template: &Template) -> Marking {
     }
 }
 
-fn frame(template: &Template, job: String) -> Frame {
+fn frame(template: &Template, job: String, accepted: Option<&str>) -> Frame {
     let kerf = template.material.kerf_mm;
     let note = if kerf > 0.0 {
         format!("kerf {kerf} mm is in the lines: cut on the line")
     } else {
         "no kerf in the lines".to_owned()
     };
-    Frame { job, material: template.material.name.clone(), notes: vec![note] }
+    let accepted = accepted.map(|reason| format!("flexible, accepted: {reason}"));
+    let notes = std::iter::once(note).chain(accepted).collect();
+    Frame { job, material: template.material.name.clone(), notes }
 }

@@ -149,6 +149,10 @@ pub struct MakeArgs {
     /// Folder of the job [default: out/<name>]
     #[arg(short, long, value_name = "DIR")]
     pub output: Option<PathBuf>,
+
+    /// The structure is flexible on purpose; the reason goes on record and on every sheet
+    #[arg(long, value_name = "REASON")]
+    pub accept_flexible: Option<String>,
 }
 
 /// Arguments of `check`.

@@ -107,7 +107,11 @@ struct Ordered {
     template: Template,
 }
 
-fn ordered(args: &InputArgs, voice: Voice) -> Result<Ordered, Failure> {
+fn ordered(
+    args: &InputArgs,
+    accepted_flexible: Option<&String>,
+    voice: Voice,
+) -> Result<Ordered, Failure> {
     let template = input::template(&args.template)?;
     let mut input = input::structure(args)?;
     let stop = Arc::new(AtomicBool::new(false));
@@ -116,7 +120,12 @@ fn ordered(args: &InputArgs, voice: Voice) -> Result<Ordered, Failure> {
     let _ = ctrlc::set_handler(move || switch.store(true, Ordering::Relaxed));
     let mut terminal = Terminal::new(voice, stop, args.time_limit);
     let draft = std::mem::take(&mut input.draft);
-    let order = Order { draft, template: &template, effort: effort(args) };
+    let order = Order {
+        draft,
+        template: &template,
+        effort: effort(args),
+        accepted_flexible: accepted_flexible.cloned(),
+    };
     let job = job::run(order, &mut terminal);
     terminal.finish();
     let mut job = job?;
@@ -158,7 +167,7 @@ fn make(args: &MakeArgs, voice: Voice) -> Result<End, Failure> {
     if let Some(end) = joint_not_built(args.input.joint) {
         return Ok(end);
     }
-    let ordered = ordered(&args.input, voice)?;
+    let ordered = ordered(&args.input, args.accept_flexible.as_ref(), voice)?;
     let job = &ordered.job;
     voice.findings(&job.findings);
     let name = job.structure.as_ref().map(Structure::name).unwrap_or_default();
@@ -248,7 +257,7 @@ fn check(args: &InputArgs, voice: Voice) -> Result<End, Failure> {
     if let Some(end) = joint_not_built(args.joint) {
         return Ok(end);
     }
-    let ordered = ordered(args, voice)?;
+    let ordered = ordered(args, None, voice)?;
     let findings = &ordered.job.findings;
     voice.findings(findings);
     let fine = passes(findings);

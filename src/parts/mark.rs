@@ -53,9 +53,9 @@ pub(super) fn marks(
                 marks.push(Mark { kind: MarkKind::Engrave, strokes });
             }
         };
-        write(&piece.axes[fin].node.to_string(), beside(piece, fin, Side::Left));
+        write(&node_text(piece.axes[fin].node), beside(piece, fin, Side::Left));
         if fin + 1 == last {
-            write(&piece.axes[last].node.to_string(), beside(piece, last, Side::Right));
+            write(&node_text(piece.axes[last].node), beside(piece, last, Side::Right));
         }
         if fin % NAME_EVERY == 0 || fin + 1 == last {
             write(&format!("{name}\u{2191}"), Wish { along: 0.5, up: 0.5 });
@@ -68,6 +68,14 @@ pub(super) fn marks(
     }
     marks.extend(fold_lines(piece, folds, marking.folds));
     marks
+}
+
+/// A node number; one that reads as another upside down ends in a full stop.
+fn node_text(node: usize) -> String {
+    let text = node.to_string();
+    let turns_over =
+        text.contains(['6', '9']) && text.chars().all(|c| "01689".contains(c));
+    if turns_over { text + "." } else { text }
 }
 
 /// A fold in degrees with its sign, unless it is none.

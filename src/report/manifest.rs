@@ -49,7 +49,7 @@ pub fn manifest(job: &Job, source: &Source) -> Value {
         },
         "sheet_stock": job.stock.iter().map(stock).collect::<Vec<_>>(),
         "verdict": null,
-        "accepted_flexible": null,
+        "accepted_flexible": job.accepted_flexible,
         "findings": job.findings,
         "parts": job.parts.iter().map(part).collect::<Vec<_>>(),
         "sheets": sheets(job),
