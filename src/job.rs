@@ -101,7 +101,7 @@ pub fn run(order: Order, watch: &mut dyn Watch) -> Result<Job, Interrupted> {
 /// A part as the nester sees it: the line that will be drawn.
 fn shape(part: &Part, kerf: Kerf, template: &Template) -> Shape {
     let drawn = kerf.compensated(&part.region.outline);
-    let outline = drawn.flattened(ARC_SAGITTA_MM);
+    let outline = drawn.enclosing_polygon(ARC_SAGITTA_MM);
     Shape { name: part.id.clone(), outline, turns: turns(template) }
 }
 

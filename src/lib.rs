@@ -1,4 +1,34 @@
 //! finwright: from a torsion-free support structure to laser-cut sheets.
+//!
+//! The stages in order, each a pure function on plain values:
+//!
+//! 1. [`structure`]: a [`Draft`](structure::Draft) is judged and becomes a
+//!    [`Structure`](structure::Structure): nodes with axes, planar fins, strips of fins.
+//! 2. [`parts`]: strips are unfolded, slit where they cross, spliced and marked.
+//! 3. [`nest`]: parts find their places on sheets of the stock.
+//! 4. [`sheets`]: what the laser does, kerf included, independent of any format.
+//! 5. [`gate`]: only what nothing forbids is [`Approved`](gate::Approved).
+//! 6. [`export`]: DXF, SVG, PDF and PNG. [`report`]: the manifest and the bill of parts.
+//!
+//! [`job`] runs them; [`cli`] is the only room that touches the world. Units are
+//! millimetres and radians inside.
+//!
+//! ```
+//! use finwright::{design::examples, export, gate, job, nest::Effort, template};
+//!
+//! let source = template::embedded("pmma-cast-3").unwrap();
+//! let template = template::read(source, "pmma-cast-3").unwrap();
+//! let order = job::Order {
+//!     draft: (examples::named("three").unwrap().draft)(),
+//!     template: &template,
+//!     effort: Effort { trials: 1, seed: 0 },
+//!     accepted_flexible: None,
+//! };
+//! let job = job::run(order, &mut ()).unwrap();
+//! let approved = gate::approve(&job.sheets, &job.findings).unwrap();
+//! let files = export::cut_files(&approved);
+//! assert!(files.iter().any(|(path, _)| path == "sheets/sheet-01.dxf"));
+//! ```
 
 pub mod cli;
 pub mod design;

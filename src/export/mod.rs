@@ -34,27 +34,43 @@ pub type File = (String, Vec<u8>);
 /// All files of approved sheets: DXF, SVG and a picture of each, and one PDF of all.
 pub fn cut_files(approved: &Approved<&Vec<Sheet>>) -> Vec<File> {
     let sheets = approved.get();
-    let mut files = Vec::new();
-    for sheet in sheets.iter() {
+    let mut files = side_by_side(sheets, |sheet| {
         let path = |ending: &str| format!("sheets/{}.{ending}", sheet.id);
-        files.push((path("dxf"), dxf(sheet)));
-        files.push((path("svg"), svg(sheet)));
-        files.extend(
-            png(sheet, &PngLook::default()).ok().map(|bytes| (path("png"), bytes)),
-        );
-    }
+        let picture = png(sheet, &PngLook::default()).ok();
+        let drawings = [(path("dxf"), dxf(sheet)), (path("svg"), svg(sheet))];
+        drawings.into_iter().chain(picture.map(|bytes| (path("png"), bytes))).collect()
+    });
     files.push(("sheets/sheets.pdf".to_owned(), pdf(sheets)));
     files
 }
 
 /// Pictures of sheets that were refused, stamped across.
 pub fn stamped_previews(sheets: &[Sheet]) -> Vec<File> {
-    let picture = |sheet: &Sheet| {
+    side_by_side(sheets, |sheet| {
         let stamp = stamp(sheet, "NOT FOR CUTTING");
         let look = PngLook { stamp: &stamp, ..PngLook::default() };
-        Some((format!("preview/{}.png", sheet.id), png(sheet, &look).ok()?))
-    };
-    sheets.iter().filter_map(picture).collect()
+        let picture = png(sheet, &look).ok();
+        let file = picture.map(|bytes| (format!("preview/{}.png", sheet.id), bytes));
+        file.into_iter().collect()
+    })
+}
+
+/// The files of all sheets in order, made on all cores: pictures take long.
+fn side_by_side(
+    sheets: &[Sheet],
+    files: impl Fn(&Sheet) -> Vec<File> + Sync,
+) -> Vec<File> {
+    let cores = std::thread::available_parallelism().map_or(1, usize::from);
+    let mut all = Vec::new();
+    for batch in sheets.chunks(cores) {
+        std::thread::scope(|scope| {
+            let work = batch.iter().map(|sheet| scope.spawn(|| files(sheet)));
+            let work: Vec<_> = work.collect();
+            // A thread that panicked has no files; its panic was printed.
+            all.extend(work.into_iter().flat_map(|work| work.join().unwrap_or_default()));
+        });
+    }
+    all
 }
 
 /// Letters from the lower left to the upper right corner of a sheet.

@@ -117,6 +117,28 @@ impl Contour {
         points
     }
 
+    /// The corners as a polygon that encloses a counter-clockwise contour: arcs that bulge
+    /// outward are replaced by their tangents, all others as in [`Contour::flattened`].
+    pub fn enclosing_polygon(&self, sagitta: f64) -> Vec<Point2> {
+        let mut points = Vec::with_capacity(self.vertices.len());
+        for segment in self.segments() {
+            points.push(segment.from);
+            let Some(arc) = segment.arc() else { continue };
+            let pieces = chord_count(&arc, sagitta);
+            let step = arc.sweep / f64::from(pieces);
+            let (count, first, radius) = if arc.sweep > 0.0 {
+                (pieces, 0.5, arc.radius / trig::cos(step / 2.0))
+            } else {
+                (pieces - 1, 1.0, arc.radius)
+            };
+            points.extend((0..count).map(|k| {
+                let angle = arc.start + step * (f64::from(k) + first);
+                arc.center + Vector2::new(trig::cos(angle), trig::sin(angle)) * radius
+            }));
+        }
+        points
+    }
+
     /// Length around, mm.
     pub fn length(&self) -> f64 {
         self.segments().map(|segment| segment.length()).sum()
@@ -205,6 +227,15 @@ mod tests {
         assert!((disc().signed_area() - pi).abs() < 1e-12);
         assert!((disc().length() - 2.0 * pi).abs() < 1e-12);
         assert!((disc().reversed().signed_area() + pi).abs() < 1e-12);
+    }
+
+    #[test]
+    fn the_enclosing_polygon_of_a_disc_touches_it_from_outside() {
+        let points = disc().enclosing_polygon(1e-3);
+        for (a, b) in points.iter().zip(points.iter().cycle().skip(1)) {
+            let apart = nalgebra::center(a, b).coords.norm();
+            assert!((1.0 - 1e-12..1.001).contains(&apart), "{apart}");
+        }
     }
 
     #[test]
