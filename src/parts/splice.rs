@@ -72,8 +72,11 @@ fn fewest(
         if fits([start, None]) {
             return Some(cuts);
         }
-        let later = places.iter().copied().filter(|&fin| start.is_none_or(|s| fin > s));
-        cuts.push(later.take_while(|&fin| fits([start, Some(fin)])).last()?);
+        let done = places.partition_point(|&fin| start.is_some_and(|start| fin <= start));
+        let later = &places[done..];
+        // A longer piece never fits where a shorter one does not.
+        let fitting = later.partition_point(|&fin| fits([start, Some(fin)]));
+        cuts.push(later[fitting.checked_sub(1)?]);
     }
 }
 
