@@ -32,3 +32,33 @@ pub const NO_LENGTH_MM: f64 = 1e-6;
 
 /// Folds that differ by less count as equal, radians.
 pub const SAME_FOLD: f64 = 1e-6;
+
+/// Lengths that differ by less count as equal where a choice hangs on it, mm.
+pub const SAME_LENGTH_MM: f64 = 1e-6;
+
+/// `vn` that differ by less in direction are one axis, radians: exporters round.
+pub const SAME_AXIS: f64 = 1e-4;
+
+/// Axes shorter than this point nowhere.
+pub const NO_AXIS: f64 = 1e-12;
+
+/// Nodes within this share of a structure's height of its lowest one count as lowest.
+pub const SAME_HEIGHT: f64 = 1e-3;
+
+/// Coordinates in files are multiples of this, mm.
+pub const WRITTEN_MM: f64 = 1e-6;
+
+/// How far the rounding of a placement may move an outline, mm.
+pub const PLACED_MM: f64 = 2e-6;
+
+/// Room that an outline needs beside itself to fit a sheet for certain, mm.
+pub const ROOM_MM: f64 = 1e-5;
+
+/// Seats on a sheet that cost less than this apart cost the same, mm.
+pub const SAME_COST_MM: f64 = 1e-9;
+
+/// How far Bézier curves may be off the arcs that they stand for, mm.
+pub const BEZIER_MM: f64 = 1e-5;
+
+/// Directions whose squared length is off 1 by less are unit vectors, but for rounding.
+pub const UNIT_LENGTH: f64 = 8.0 * f64::EPSILON;

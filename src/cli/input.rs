@@ -7,6 +7,7 @@ use crate::structure::{
     Draft, ObjOptions, ReadError, StructureFinding, read_json, read_obj,
 };
 use crate::template::{self, Template, TemplateErrors};
+use crate::tolerance::SAME_HEIGHT;
 use miette::Diagnostic;
 use sha2::{Digest, Sha256};
 use std::path::{Path, PathBuf};
@@ -128,7 +129,7 @@ fn fixed(fix: &Fix, draft: &Draft) -> Option<Vec<usize>> {
             let all = || draft.positions.iter().map(height);
             let low = all().fold(f64::INFINITY, f64::min);
             let high = all().fold(f64::NEG_INFINITY, f64::max);
-            let limit = low + 1e-3 * (high - low);
+            let limit = low + SAME_HEIGHT * (high - low);
             Some(
                 (0..draft.positions.len())
                     .filter(|&k| draft.positions[k].z <= limit)

@@ -16,6 +16,7 @@ use crate::report::{self, Source};
 use crate::structure::{Structure, write_json};
 use crate::template::{self, Template};
 use crate::tolerance::Tolerance;
+use crate::watch::Watch;
 use clap::CommandFactory;
 use miette::Diagnostic;
 use std::io::Write;
@@ -105,6 +106,7 @@ struct Ordered {
     job: Job,
     input: Input,
     template: Template,
+    terminal: Terminal,
 }
 
 fn ordered(
@@ -130,7 +132,7 @@ fn ordered(
     terminal.finish();
     let mut job = job?;
     job.findings.splice(0..0, input.findings.drain(..));
-    Ok(Ordered { job, input, template })
+    Ok(Ordered { job, input, template, terminal })
 }
 
 fn effort(args: &InputArgs) -> Effort {
@@ -187,6 +189,9 @@ fn make(args: &MakeArgs, voice: Voice) -> Result<End, Failure> {
             End::Refused
         }
     };
+    if ordered.terminal.stopped() {
+        return Err(Failure::Interrupted);
+    }
     if job.structure.is_some() {
         jobdir::write(&dir, &files)?;
     }

@@ -2,6 +2,7 @@
 
 use crate::geometry::{Point2, Segment, Vector2};
 use crate::sheets::Path;
+use crate::tolerance::WRITTEN_MM;
 
 /// A step along a path of lines and cubic Bézier curves.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -60,7 +61,7 @@ pub(super) fn halved_until(
 /// ones are written as lines: some readers lose themselves in radii beyond 1e9 mm.
 pub(super) fn is_arc(segment: &Segment) -> bool {
     let sagitta = (segment.to - segment.from).norm() * segment.bulge.abs() / 2.0;
-    sagitta >= 5e-7
+    sagitta >= WRITTEN_MM / 2.0
 }
 
 fn halves(segment: &Segment) -> [Segment; 2] {

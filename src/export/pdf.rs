@@ -8,6 +8,7 @@ use super::arcs::{Step, steps};
 use super::{LAYERS, LINE_WIDTH};
 use crate::geometry::Point2;
 use crate::sheets::Sheet;
+use crate::tolerance::BEZIER_MM;
 
 const CATALOG: Ref = Ref::new(1);
 const PAGES: Ref = Ref::new(2);
@@ -15,9 +16,6 @@ const FIRST_LAYER: i32 = 3;
 const FIRST_PAGE: i32 = FIRST_LAYER + LAYERS.len() as i32;
 
 const POINTS_PER_MM: f64 = 72.0 / 25.4;
-
-/// How far a Bézier curve may be off its arc, mm.
-const ARC_TOLERANCE: f64 = 1e-5;
 
 /// All sheets as one PDF, a page each.
 pub fn pdf(sheets: &[Sheet]) -> Vec<u8> {
@@ -79,7 +77,7 @@ fn drawing(sheet: &Sheet) -> Content {
         let [r, g, b] = layer.rgb.map(|byte| f32::from(byte) / 255.0);
         content.set_stroke_rgb(r, g, b);
         for path in layer.paths(sheet) {
-            for step in steps(path, ARC_TOLERANCE) {
+            for step in steps(path, BEZIER_MM) {
                 draw(&mut content, step);
             }
             content.stroke();

@@ -11,6 +11,7 @@
 use crate::geometry::predicates::{Side, side};
 use crate::geometry::{Point2, Vector2, trig};
 use crate::nest::{Layout, NestedSheet, Placement, Shape, Stock};
+use crate::tolerance::PLACED_MM;
 use spade::{
     ConstrainedDelaunayTriangulation, FloatTriangulation, HasPosition, Triangulation,
 };
@@ -30,9 +31,6 @@ pub enum Fault {
     #[error("sheet {sheet}: the outlines cannot be triangulated: {reason}")]
     Unreadable { sheet: usize, reason: String },
 }
-
-/// Slack for the rounding of written coordinates, mm.
-const ROUNDING: f64 = 2e-6;
 
 /// A corner of a placed outline.
 struct Corner {
@@ -117,7 +115,7 @@ impl Checked<'_> {
         let rings = self.rings.iter().enumerate();
         rings
             .map(|(k, ring)| (k, ring.iter().map(out).fold(f64::NEG_INFINITY, f64::max)))
-            .filter(|(_, by)| by.is_nan() || *by > ROUNDING)
+            .filter(|(_, by)| by.is_nan() || *by > PLACED_MM)
             .map(|(k, by)| Fault::InMargin { sheet: self.sheet, name: self.name(k), by })
             .collect()
     }
@@ -184,7 +182,7 @@ impl Checked<'_> {
 
     /// Corners nearer to an edge of another part than the spacing.
     fn too_near(&self, cdt: &ConstrainedDelaunayTriangulation<Corner>) -> Vec<Fault> {
-        let least = self.stock.spacing - ROUNDING;
+        let least = self.stock.spacing - PLACED_MM;
         if least <= 0.0 {
             return Vec::new();
         }

@@ -7,6 +7,7 @@
 
 use crate::geometry::{Point2, trig};
 use crate::nest::{NestedSheet, Placement, Shape, Stock, turn};
+use crate::tolerance::{PLACED_MM, SAME_COST_MM};
 
 /// Width of a column, mm.
 const COLUMN: f64 = 1.0;
@@ -89,13 +90,13 @@ impl Board {
     fn seat(&self, turn: usize, profile: &Profile) -> Option<Seat> {
         let columns = profile.lower.len();
         let room = self.sheet.width - 2.0 * self.sheet.margin;
-        let ceiling = self.sheet.height - self.sheet.margin - 2e-6;
+        let ceiling = self.sheet.height - self.sheet.margin - PLACED_MM;
         let floor = self.sheet.margin;
         let highest = profile.upper.iter().copied().fold(f64::NEG_INFINITY, f64::max);
         let lowest = profile.lower.iter().copied().fold(f64::INFINITY, f64::min);
         let mut best: Option<Seat> = None;
         for column in 0..=self.profile.len().checked_sub(columns)? {
-            if column as f64 * COLUMN + profile.width > room - 2e-6 {
+            if column as f64 * COLUMN + profile.width > room - PLACED_MM {
                 break;
             }
             let height = self.rest(column, profile).max(floor - lowest);
@@ -109,7 +110,7 @@ impl Board {
                 })
                 .sum();
             let cost = height + highest + lost / columns as f64;
-            if best.as_ref().is_none_or(|best| cost < best.cost - 1e-9) {
+            if best.as_ref().is_none_or(|best| cost < best.cost - SAME_COST_MM) {
                 best = Some(Seat { cost, turn, column, height });
             }
         }
@@ -166,7 +167,7 @@ impl Profile {
             }
         }
         // The column that rounding may have missed by a hair.
-        let spacing = spacing + 2e-6;
+        let spacing = spacing + PLACED_MM;
         let reach = (spacing / COLUMN).ceil() as usize + 1;
         let lowered = lowered(&lower, spacing, reach);
         Self { angle, left, width, lower, upper, lowered, reach }

@@ -2,6 +2,7 @@
 
 use crate::geometry::{Point2, Vector2, trig};
 use crate::nest::{Stock, Turns};
+use crate::tolerance::ROOM_MM;
 use std::f64::consts::{FRAC_PI_2, PI};
 
 /// A turn by which the outline fits the sheet inside its margin, if there is one.
@@ -10,8 +11,7 @@ pub fn fits(outline: &[Point2], turns: &Turns, stock: &Stock) -> Option<f64> {
     let room = [stock.width - 2.0 * stock.margin, stock.height - 2.0 * stock.margin];
     let inside = |angle: &f64| {
         let size = extent(&hull, *angle);
-        // A placed part is rounded to 1e-6 mm.
-        size[0] <= room[0] - 1e-5 && size[1] <= room[1] - 1e-5
+        size[0] <= room[0] - ROOM_MM && size[1] <= room[1] - ROOM_MM
     };
     candidates(&hull, turns).into_iter().find(inside)
 }

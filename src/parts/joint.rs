@@ -7,9 +7,10 @@
 use crate::geometry::Vector3;
 use crate::parts::finding::PartFinding;
 use crate::parts::fit::Fit;
+use crate::parts::rank::ranks;
 use crate::parts::unfold::FlatStrip;
 use crate::structure::{FinGrid, Structure};
-use std::collections::{BTreeMap, VecDeque};
+use std::collections::BTreeMap;
 use std::f64::consts::PI;
 
 /// Which edge of a strip a slit is open to.
@@ -120,6 +121,12 @@ struct Lap {
     crossing: f64,
 }
 
+impl Lap {
+    fn strips(&self) -> [usize; 2] {
+        self.passages.map(|passage| passage.strip)
+    }
+}
+
 /// Joins the strips at all nodes.
 pub fn join(
     structure: &Structure,
@@ -133,7 +140,7 @@ pub fn join(
         .map(|(&node, passages)| Meeting { structure, grid: &grid, fit, node, passages })
         .collect();
     let laps: Vec<Option<Lap>> = meetings.iter().map(Meeting::lap).collect();
-    let (order, rank) = ranks(strips.len(), laps.iter().flatten());
+    let (order, rank) = ranks(strips, laps.iter().flatten().map(Lap::strips));
     let names: Vec<String> =
         rank.iter().map(|rank| strip_name(*rank, strips.len())).collect();
     let free = Joints { slits: BTreeMap::new(), ends: [End::Free; 2] };
@@ -292,42 +299,6 @@ fn crossing(a: Passage, b: Passage) -> Option<f64> {
     pairs
         .flat_map(|p| [b.before, b.after].map(|q| turn(p, q).min(turn(q, p))))
         .reduce(f64::min)
-}
-
-/// Ranks that use as few mixed strips as can be: the strips that cross are two-coloured;
-/// the first colour goes in first. The second list gives each strip's rank.
-fn ranks<'a>(
-    strips: usize,
-    laps: impl Iterator<Item = &'a Lap>,
-) -> (Vec<usize>, Vec<usize>) {
-    let mut crossed = vec![Vec::new(); strips];
-    for [a, b] in laps.map(|lap| lap.passages.map(|passage| passage.strip)) {
-        crossed[a].push(b);
-        crossed[b].push(a);
-    }
-    let mut colour: Vec<Option<bool>> = vec![None; strips];
-    for start in 0..strips {
-        if colour[start].is_some() {
-            continue;
-        }
-        colour[start] = Some(false);
-        let mut queue = VecDeque::from([start]);
-        while let Some(strip) = queue.pop_front() {
-            for &other in &crossed[strip] {
-                if colour[other].is_none() {
-                    colour[other] = colour[strip].map(|colour| !colour);
-                    queue.push_back(other);
-                }
-            }
-        }
-    }
-    let mut order: Vec<usize> = (0..strips).collect();
-    order.sort_by_key(|&strip| (colour[strip], strip));
-    let mut rank = vec![0; strips];
-    for (place, &strip) in order.iter().enumerate() {
-        rank[strip] = place;
-    }
-    (order, rank)
 }
 
 /// Cuts the two slits of a lap: the strip that goes in first is open at the top.

@@ -10,6 +10,8 @@ mod joint;
 mod mark;
 mod outline;
 mod part;
+mod rank;
+mod seam;
 mod splice;
 mod strength;
 mod unfold;
@@ -24,7 +26,7 @@ pub use unfold::{FlatAxis, FlatStrip, Fold, unfold};
 
 use crate::geometry::{Point2, Region, predicates};
 use crate::structure::{Strip, Structure};
-use crate::tolerance::{ARC_SAGITTA_MM, SAME_FOLD};
+use crate::tolerance::ARC_SAGITTA_MM;
 use splice::Whole;
 use std::collections::BTreeMap;
 use strength::Slitted;
@@ -87,8 +89,8 @@ pub fn strips(structure: Structure, making: &Making) -> Made {
 fn flat_strips(structure: &Structure) -> (Vec<FlatStrip>, Vec<(usize, PartFinding)>) {
     let mut flat = Vec::new();
     let mut findings = Vec::new();
-    for (index, strip) in structure.strips().iter().enumerate() {
-        let chain = opened(structure, index, strip);
+    let chains = seam::opened(structure);
+    for (strip, chain) in structure.strips().iter().zip(chains) {
         let (pieces, cuts) =
             unfold::unfold_without_overlap(structure, &chain, strip.closed);
         findings.extend(cuts.into_iter().map(|node| {
@@ -98,25 +100,6 @@ fn flat_strips(structure: &Structure) -> (Vec<FlatStrip>, Vec<(usize, PartFindin
         flat.extend(pieces);
     }
     (flat, findings)
-}
-
-/// The nodes of a strip; a closed one begins and ends at its smallest fold. Where many
-/// are equal (rings of a dome), successive strips are opened in different places, so that
-/// no crossing strip loses all its joints.
-fn opened(structure: &Structure, index: usize, strip: &Strip) -> Vec<usize> {
-    if !strip.closed {
-        return strip.nodes.clone();
-    }
-    let count = strip.nodes.len();
-    let node = |k: usize| strip.nodes[k % count];
-    let fold = |k: usize| structure.fold(node(k + count - 1), node(k), node(k + 1)).abs();
-    let folds: Vec<f64> = (0..count).map(fold).collect();
-    let least = folds.iter().copied().fold(f64::INFINITY, f64::min);
-    let equal: Vec<usize> =
-        (0..count).filter(|&k| folds[k] <= least + SAME_FOLD).collect();
-    let stride = (equal.len() * 3 / 8).max(1);
-    let seam = equal[index * stride % equal.len()];
-    (seam..=seam + count).map(node).collect()
 }
 
 fn chain(flat: &FlatStrip) -> Strip {

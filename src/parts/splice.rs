@@ -11,7 +11,7 @@ use crate::parts::fit::Fit;
 use crate::parts::joint::{End, Joints};
 use crate::parts::outline::{Closure, Piece, outline};
 use crate::parts::unfold::FlatStrip;
-use crate::tolerance::ARC_SAGITTA_MM;
+use crate::tolerance::{ARC_SAGITTA_MM, SAME_LENGTH_MM};
 use std::f64::consts::PI;
 
 /// How far the flanks of the tail open, radians.
@@ -190,16 +190,16 @@ impl Whole<'_> {
         let total = run[run.len() - 1];
         let middle = |fin: usize| (run[fin] + run[fin + 1]) / 2.0;
         let nearest = |target: f64| {
-            let off = |fin: &usize| (middle(*fin) - target).abs();
-            places.iter().copied().min_by(|a, b| off(a).total_cmp(&off(b)))
+            let off = |fin: usize| (middle(fin) - target).abs();
+            let least = places.iter().map(|&fin| off(fin)).reduce(f64::min)?;
+            places.iter().copied().find(|&fin| off(fin) <= least + SAME_LENGTH_MM)
         };
         let share = |k: usize| total * k as f64 / (count + 1) as f64;
         (1..=count).filter_map(|k| nearest(share(k))).collect()
     }
 
     fn no_place(&self) -> PartFinding {
-        let axes = &self.strip.axes;
-        let length_mm = axes.windows(2).map(|w| (w[1].foot - w[0].foot).norm()).sum();
+        let length_mm = self.strip.length();
         let part = self.name.to_owned();
         PartFinding::NoPlaceForSplice { part, length_mm, needed_mm: self.needed() }
     }

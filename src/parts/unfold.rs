@@ -89,6 +89,11 @@ pub fn unfold(structure: &Structure, chain: &[usize], closed: bool) -> FlatStrip
     strip
 }
 
+/// Length from the first foot over all others to the last.
+fn run(axes: &[FlatAxis]) -> f64 {
+    axes.windows(2).map(|pair| (pair[1].foot - pair[0].foot).norm()).sum()
+}
+
 /// Angle between two vectors, in [0, π].
 fn angle(a: Vector3, b: Vector3) -> f64 {
     trig::atan2(a.cross(&b).norm(), a.dot(&b))
@@ -124,9 +129,7 @@ impl FlatStrip {
         let chord = last.foot - first.foot;
         let upright: Vector2 = self.axes.iter().map(|axis| axis.right()).sum();
         // A strip that comes back to where it began has no chord to speak of.
-        let length: f64 =
-            self.axes.windows(2).map(|w| (w[1].foot - w[0].foot).norm()).sum();
-        let along = if chord.norm() > 0.2 * length && chord.dot(&upright) > 0.0 {
+        let along = if chord.norm() > 0.2 * self.length() && chord.dot(&upright) > 0.0 {
             chord.normalize()
         } else if upright.norm() > 0.0 {
             upright.normalize()
@@ -147,12 +150,18 @@ impl FlatStrip {
         bottom.chain(self.axes.iter().rev().map(|axis| axis.top())).collect()
     }
 
+    /// Length along the base mesh, mm.
+    pub fn length(&self) -> f64 {
+        run(&self.axes)
+    }
+
     /// The place of the smallest fold; of equal ones the nearest to the middle.
     fn smallest_fold(&self) -> Option<usize> {
         let least = self.folds.iter().map(|fold| fold.angle.abs()).reduce(f64::min)?;
         let equal = |k: &usize| self.folds[*k].angle.abs() <= least + SAME_FOLD;
-        let from_middle = |k: &usize| (2 * k + 1).abs_diff(self.folds.len());
-        (0..self.folds.len()).filter(equal).min_by_key(from_middle)
+        let off = |k: usize| (run(&self.axes[..=k + 1]) - run(&self.axes[k + 1..])).abs();
+        let equal = (0..self.folds.len()).filter(equal);
+        equal.min_by(|&a, &b| off(a).total_cmp(&off(b)))
     }
 
     /// Whether the flat strip lies over itself, exactly.

@@ -194,8 +194,8 @@ fn totals(job: &Job, template: &Template) -> Value {
     let material = &template.material;
     let seconds = cut / material.cut_speed_mm_s + marked / material.engrave_speed_mm_s;
     let area: f64 = job.parts.iter().map(|p| p.region.area() * p.quantity as f64).sum();
-    // mm² × mm × kg/m³ = 1e-9 kg.
-    let mass = area * material.thickness_mm * material.density_kg_m3 * 1e-9;
+    // mm² × mm × kg/m³: 1e9 mm³ are a cubic metre.
+    let mass = area * material.thickness_mm * material.density_kg_m3 / 1e9;
     json!({
         "parts": job.parts.iter().map(|part| part.quantity).sum::<usize>(),
         "sheets": job.sheets.len(),
@@ -212,7 +212,7 @@ fn cost(job: &Job, template: &Template) -> Option<f64> {
     let price = |nested: &NestedSheet| {
         let sheet = template.sheet.get(nested.stock)?;
         let by_area = template.material.price_per_m2;
-        sheet.price.or(by_area.map(|p| p * sheet.width_mm * sheet.height_mm * 1e-6))
+        sheet.price.or(by_area.map(|p| p * sheet.width_mm * sheet.height_mm / 1e6))
     };
     job.layout
         .sheets

@@ -4,7 +4,7 @@ use crate::geometry::{Point3, trig};
 use crate::structure::draft::{Draft, area_vector, face_edges};
 use crate::structure::finding::{FaceFault, StructureFinding};
 use crate::structure::{Node, Structure};
-use crate::tolerance::{NO_LENGTH_MM, Tolerance};
+use crate::tolerance::{NO_AXIS, NO_LENGTH_MM, Tolerance};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Off-plane distance of a quad's corners from their middle plane and their largest
@@ -60,7 +60,7 @@ fn values(draft: &Draft) -> Vec<StructureFinding> {
             findings.push(StructureFinding::NotFinite { node, what, value });
         } else if let Some((what, value)) = all.clone().find(|(_, v)| v.abs() > 1e9) {
             findings.push(StructureFinding::NotFinite { node, what, value });
-        } else if axis.norm() < 1e-12 {
+        } else if axis.norm() < NO_AXIS {
             findings.push(StructureFinding::ZeroAxis { node });
         } else if below < 0.0 || above < 0.0 || below + above < NO_LENGTH_MM {
             findings.push(StructureFinding::NoDepth { node, below, above });

@@ -11,6 +11,7 @@ mod crossing;
 mod draft;
 mod finding;
 mod json;
+mod meeting;
 mod node;
 mod obj;
 mod strips;
@@ -94,7 +95,7 @@ impl Structure {
             Some(chains) => strips::given(&chains, &fins),
             None => (strips::traced(&nodes, &boundary, tolerance), Vec::new()),
         };
-        let (strips, split) = strips::without_self_meetings(strips, &nodes);
+        let (strips, split) = meeting::without_self_meetings(strips, &nodes);
         let findings = findings.into_iter().chain(split).collect();
         let faces = draft.faces;
         (Self { name: draft.name, nodes, faces, fins, strips, fixed }, findings)

@@ -2,6 +2,7 @@
 
 use crate::geometry::{Point3, Vector3, trig};
 use crate::structure::draft::Draft;
+use crate::tolerance::UNIT_LENGTH;
 
 /// A vertex of the base mesh with its axis.
 #[derive(Debug, Clone, PartialEq)]
@@ -75,12 +76,19 @@ pub(super) fn across(node: &Node, point: Point3) -> Vector3 {
     (d - node.axis * d.dot(&node.axis)).normalize()
 }
 
+/// The direction as a unit vector; one that is a unit vector already stays the same to the
+/// last bit, so that a structure written and read is the same structure.
+fn unit(direction: Vector3) -> Vector3 {
+    let off = direction.norm_squared() - 1.0;
+    if off.abs() <= UNIT_LENGTH { direction } else { direction.normalize() }
+}
+
 /// The nodes of a checked draft with their fins around them.
 pub(super) fn join(draft: &Draft, fins: &[[usize; 2]]) -> Vec<Node> {
     let mut nodes: Vec<Node> = (0..draft.positions.len())
         .map(|k| Node {
             position: draft.positions[k],
-            axis: draft.axes[k].normalize(),
+            axis: unit(draft.axes[k]),
             below: draft.below[k],
             above: draft.above[k],
             arms: Vec::new(),

@@ -8,6 +8,7 @@ use crate::geometry::{Point3, Vector3};
 use crate::structure::draft::{Draft, area_vector};
 use crate::structure::finding::StructureFinding;
 use crate::structure::json::ReadError;
+use crate::tolerance::SAME_AXIS;
 use crate::units::Unit;
 
 /// Where node axes come from.
@@ -147,7 +148,7 @@ fn index(line: usize, word: Option<&str>, count: usize) -> Result<usize, ReadErr
 /// Whether two `vn` mean the same axis; exporters round them differently.
 fn parallel(a: Vector3, b: Vector3) -> bool {
     let lengths = a.norm() * b.norm();
-    a.dot(&b) > 0.0 && a.cross(&b).norm() <= 1e-4 * lengths || a == b
+    a.dot(&b) > 0.0 && a.cross(&b).norm() <= SAME_AXIS * lengths || a == b
 }
 
 fn axes(

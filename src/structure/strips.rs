@@ -3,12 +3,13 @@
 //! At a node inside the mesh with four fins, opposite fins continue each other. At any
 //! other node the two fins that continue each other best (kink at most
 //! [`Tolerance::straight_kink`]) are paired, then a second pair that lies on both sides of
-//! the first; all other fins end there.
+//! the first; all other fins end there. Of pairs that are equally straight the longer goes
+//! first, then the one whose far ends have the smaller numbers.
 
 use crate::geometry::trig;
 use crate::structure::finding::StructureFinding;
-use crate::structure::node::{Node, across};
-use crate::tolerance::Tolerance;
+use crate::structure::node::{Arm, Node, across};
+use crate::tolerance::{SAME_FOLD, SAME_LENGTH_MM, Tolerance};
 use std::collections::{BTreeMap, BTreeSet};
 use std::f64::consts::PI;
 
@@ -47,7 +48,11 @@ pub(super) fn traced(
     let onward: Vec<BTreeMap<usize, usize>> = nodes
         .iter()
         .zip(boundary)
-        .map(|(node, &boundary)| continuations(node, boundary, tolerance))
+        .map(|(node, &boundary)| {
+            let length = |arm: &Arm| (nodes[arm.to].position - node.position).norm();
+            let lengths: Vec<f64> = node.arms.iter().map(length).collect();
+            continuations(node, &lengths, boundary, tolerance)
+        })
         .collect();
     let mut used = BTreeSet::new();
     let mut strips = Vec::new();
@@ -73,6 +78,7 @@ pub(super) fn traced(
 /// other end of the one it runs into.
 fn continuations(
     node: &Node,
+    lengths: &[f64],
     boundary: bool,
     tolerance: &Tolerance,
 ) -> BTreeMap<usize, usize> {
@@ -80,7 +86,7 @@ fn continuations(
     let pairs = if arms.len() == 4 && !boundary {
         vec![(0, 2), (1, 3)]
     } else {
-        straightest_pairs(node, tolerance.straight_kink)
+        straightest_pairs(node, lengths, tolerance)
     };
     let both =
         |(p, q): (usize, usize)| [(arms[p].to, arms[q].to), (arms[q].to, arms[p].to)];
@@ -89,23 +95,65 @@ fn continuations(
 
 /// Up to two pairs of arms that are straight to within `kink`; the second lies on both
 /// sides of the first, as half-laps must.
-fn straightest_pairs(node: &Node, kink: f64) -> Vec<(usize, usize)> {
+fn straightest_pairs(
+    node: &Node,
+    lengths: &[f64],
+    tolerance: &Tolerance,
+) -> Vec<(usize, usize)> {
     let count = node.arms.len();
-    let bend =
-        |p: usize, q: usize| (PI - (node.arms[q].angle - node.arms[p].angle)).abs();
-    let mut candidates: Vec<(usize, usize)> = (0..count)
-        .flat_map(|p| (p + 1..count).map(move |q| (p, q)))
-        .filter(|&(p, q)| bend(p, q) <= kink)
+    let candidates: Vec<Pair> = (0..count)
+        .flat_map(|p| (p + 1..count).map(move |q| [p, q]))
+        .map(|arms| Pair::new(node, lengths, arms))
+        .filter(|pair| pair.bend <= tolerance.straight_kink + SAME_FOLD)
         .collect();
-    candidates.sort_by(|&(a, b), &(c, d)| {
-        bend(a, b).total_cmp(&bend(c, d)).then((a, b).cmp(&(c, d)))
-    });
-    let Some(&(p, q)) = candidates.first() else { return Vec::new() };
-    let inside = |k: usize| p < k && k < q;
-    let second = candidates.iter().find(|&&(r, s)| {
-        ![r, s].contains(&p) && ![r, s].contains(&q) && inside(r) != inside(s)
-    });
-    std::iter::once((p, q)).chain(second.copied()).collect()
+    let Some(first) = straightest(candidates.iter().collect()) else { return Vec::new() };
+    let crossing = candidates.iter().filter(|pair| pair.crosses(first)).collect();
+    let second = straightest(crossing);
+    std::iter::once(first)
+        .chain(second)
+        .map(|pair| (pair.arms[0], pair.arms[1]))
+        .collect()
+}
+
+/// Two arms of a node that may run on as one strip.
+struct Pair {
+    arms: [usize; 2],
+    /// How far from straight, radians.
+    bend: f64,
+    /// Of both fins, mm.
+    length: f64,
+    /// The far ends, the smaller number first.
+    ends: [usize; 2],
+}
+
+impl Pair {
+    fn new(node: &Node, lengths: &[f64], arms: [usize; 2]) -> Self {
+        let [p, q] = arms.map(|arm| node.arms[arm]);
+        Self {
+            arms,
+            bend: (PI - (q.angle - p.angle)).abs(),
+            length: arms.iter().map(|&arm| lengths[arm]).sum(),
+            ends: [p.to.min(q.to), p.to.max(q.to)],
+        }
+    }
+
+    /// Whether one arm of the other pair lies on each side.
+    fn crosses(&self, other: &Self) -> bool {
+        let [p, q] = other.arms;
+        let inside = |k: usize| p < k && k < q;
+        let apart = self.arms.iter().all(|arm| !other.arms.contains(arm));
+        apart && inside(self.arms[0]) != inside(self.arms[1])
+    }
+}
+
+/// The pair that bends least; of equal ones the longest, then the one to the smallest node
+/// numbers. Rounding, and how the structure lies in space, decide nothing.
+fn straightest(mut pairs: Vec<&Pair>) -> Option<&Pair> {
+    let least = pairs.iter().map(|pair| pair.bend).reduce(f64::min)?;
+    pairs.retain(|pair| pair.bend <= least + SAME_FOLD);
+    let longest = pairs.iter().map(|pair| pair.length).reduce(f64::max)?;
+    pairs.retain(|pair| pair.length >= longest - SAME_LENGTH_MM);
+    pairs.into_iter().min_by_key(|pair| pair.ends)
 }
 
 fn walk(
@@ -156,53 +204,4 @@ pub(super) fn given(
         Strip { nodes, closed }
     });
     (strips.collect(), findings)
-}
-
-/// Splits strips that come to a node twice, between the two visits, where the fold is
-/// smallest.
-pub(super) fn without_self_meetings(
-    strips: Vec<Strip>,
-    nodes: &[Node],
-) -> (Vec<Strip>, Vec<StructureFinding>) {
-    let mut findings = Vec::new();
-    let mut whole = Vec::new();
-    for strip in strips {
-        let mut rest = opened_if_meeting(strip);
-        while let Some((first, second)) = first_meeting(&rest.nodes) {
-            let fold_at = |k: usize| {
-                fold(nodes, [rest.nodes[k - 1], rest.nodes[k], rest.nodes[k + 1]]).abs()
-            };
-            let cut = (first + 1..second)
-                .min_by(|&a, &b| fold_at(a).total_cmp(&fold_at(b)))
-                .unwrap_or(second);
-            findings.push(StructureFinding::StripSplit {
-                strip: whole.len(),
-                meets: rest.nodes[second],
-                node: rest.nodes[cut],
-            });
-            let head = rest.nodes[..=cut].to_vec();
-            whole.push(Strip { nodes: head, closed: false });
-            rest.nodes.drain(..cut);
-        }
-        whole.push(rest);
-    }
-    (whole, findings)
-}
-
-/// A closed strip that meets itself is opened at its first node, so that it can be split.
-fn opened_if_meeting(mut strip: Strip) -> Strip {
-    if strip.closed && first_meeting(&strip.nodes).is_some() {
-        strip.nodes.push(strip.nodes[0]);
-        strip.closed = false;
-    }
-    strip
-}
-
-/// The first two places of a chain that are one node.
-fn first_meeting(chain: &[usize]) -> Option<(usize, usize)> {
-    let mut seen = BTreeMap::new();
-    chain
-        .iter()
-        .enumerate()
-        .find_map(|(k, node)| seen.insert(node, k).map(|first| (first, k)))
 }
