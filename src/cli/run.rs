@@ -169,9 +169,10 @@ fn make(args: &MakeArgs, voice: Voice) -> Result<End, Failure> {
     if let Some(end) = joint_not_built(args.input.joint) {
         return Ok(end);
     }
-    let ordered = ordered(&args.input, args.accept_flexible.as_ref(), voice)?;
+    let mut ordered = ordered(&args.input, args.accept_flexible.as_ref(), voice)?;
+    voice.findings(&ordered.job.findings);
+    ordered.terminal.resume("export");
     let job = &ordered.job;
-    voice.findings(&job.findings);
     let name = job.structure.as_ref().map(Structure::name).unwrap_or_default();
     let dir =
         args.output.clone().unwrap_or_else(|| Path::new("out").join(folder_name(name)));
@@ -189,6 +190,7 @@ fn make(args: &MakeArgs, voice: Voice) -> Result<End, Failure> {
             End::Refused
         }
     };
+    ordered.terminal.finish();
     if ordered.terminal.stopped() {
         return Err(Failure::Interrupted);
     }

@@ -93,6 +93,12 @@ impl Terminal {
         Self { bar, stop, until }
     }
 
+    /// Shows the bar again for one more stage.
+    pub(super) fn resume(&mut self, stage: &'static str) {
+        self.bar.reset();
+        self.progress(stage, 0, 1);
+    }
+
     /// Takes the bar off the screen.
     pub(super) fn finish(&self) {
         self.bar.finish_and_clear();
@@ -102,6 +108,8 @@ impl Terminal {
 impl Watch for Terminal {
     fn progress(&mut self, stage: &'static str, done: usize, total: usize) {
         self.bar.set_message(stage);
+        // A search by the clock has no number of trials to come.
+        let total = if self.until.is_some() { total.min(done + 1) } else { total };
         self.bar.set_length(total as u64);
         self.bar.set_position(done as u64);
     }

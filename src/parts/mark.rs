@@ -56,14 +56,16 @@ pub(super) fn marks(
         write(&node_text(piece.axes[fin].node), beside(piece, fin, Side::Left));
         if fin + 1 == last {
             write(&node_text(piece.axes[last].node), beside(piece, last, Side::Right));
+            // Only beside a splice does a piece end on a fold.
+            if let Some(text) = fold_at(piece, folds, last) {
+                write(&text, across_from(beside(piece, last, Side::Right)));
+            }
         }
         if fin % NAME_EVERY == 0 || fin + 1 == last {
             write(&format!("{name}\u{2191}"), Wish { along: 0.5, up: 0.5 });
         }
-        let fold = folds.iter().find(|fold| fold.node == piece.axes[fin].node && fin > 0);
-        if let Some(text) = fold.and_then(fold_text) {
-            let Wish { along, up } = beside(piece, fin, Side::Left);
-            write(&text, Wish { along, up: 1.0 - up });
+        if let Some(text) = fold_at(piece, folds, fin) {
+            write(&text, across_from(beside(piece, fin, Side::Left)));
         }
     }
     marks.extend(fold_lines(piece, folds, marking.folds));
@@ -76,6 +78,12 @@ fn node_text(node: usize) -> String {
     let turns_over =
         text.contains(['6', '9']) && text.chars().all(|c| "01689".contains(c));
     if turns_over { text + "." } else { text }
+}
+
+/// The fold at a place, as text.
+fn fold_at(piece: &Piece, folds: &[Fold], place: usize) -> Option<String> {
+    let node = piece.axes[place].node;
+    folds.iter().find(|fold| fold.node == node).and_then(fold_text)
 }
 
 /// A fold in degrees with its sign, unless it is none.
@@ -95,6 +103,11 @@ enum Side {
 struct Wish {
     along: f64,
     up: f64,
+}
+
+/// At the other edge.
+const fn across_from(wish: Wish) -> Wish {
+    Wish { along: wish.along, up: 1.0 - wish.up }
 }
 
 /// Beside the mouth of the slit at a place.

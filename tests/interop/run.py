@@ -106,9 +106,18 @@ def cases(runner: Runner, meshes: Path | None) -> list[Case]:
             runner.note(f"example {name}", False, written.stderr.strip()[-300:])
             continue
         found.append(Case(f"example {name}", [f"{name}.json"], EXAMPLES.get(name, [])))
+    found += [Case(f"fixture {Path(words[0]).stem}", words[:1], words[1:]) for words in fixture_commands()]
     for name, arguments in MESHES.items() if meshes else ():
         found.append(Case(f"mesh {Path(name).stem}", [str((meshes / name).resolve())], arguments))
     return found
+
+
+def fixture_commands() -> list[list[str]]:
+    """The words after `finwright make` of each command in fixtures/README.md, its files as they lie on this disk."""
+    root = HERE.parent.parent
+    lines = (root / "fixtures" / "README.md").read_text().splitlines()
+    commands = [line.split()[2:] for line in lines if line.startswith("    finwright make ")]
+    return [[str(root / word) if word.startswith("fixtures/") else word for word in words] for words in commands]
 
 
 def main() -> int:

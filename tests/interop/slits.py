@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
+from collections.abc import Sequence
 from math import cos, degrees, pi, sin
 
 import numpy as np
@@ -47,9 +48,9 @@ class Node:
         back, on = self.directions(strip, k)
         return abs((on - back) % (2 * pi) - pi)
 
-    def reach(self, direction: float) -> float:
-        """How far from the axis an arm is free of its two neighbours."""
-        gaps = sorted((other - direction) % (2 * pi) for other in self.arms)
+    def reach(self, direction: float, arms: Sequence[float] | None = None) -> float:
+        """How far from the axis an arm is free of its two neighbours among these arms, or among all that stand there."""
+        gaps = sorted((other - direction) % (2 * pi) for other in (self.arms if arms is None else arms))
         gaps = [gap for gap in gaps if 1e-9 < gap < 2 * pi - 1e-9]
         if not gaps:
             return 0.0
@@ -95,7 +96,9 @@ def _check_listed(job: Job, node: Node, strip: Strip, k: int, slit: dict, report
     report.claim("slits: partners", [f"{where}: both open at the {slit['from']}"] if other["from"] == slit["from"] else [])
     back, on = node.directions(strip, k)
     least = job.thickness / (2 * cos(node.kink(*partner) / 2))
-    half_back, half_on = max(least, node.reach(back)), max(least, node.reach(on))
+    # Only the partner comes into the slit; a third strip's end is set back from both.
+    received = node.directions(*partner)
+    half_back, half_on = max(least, node.reach(back, received)), max(least, node.reach(on, received))
     report.at_most("slits: width by formula", abs(slit["width"] - (half_back + half_on + job.clearance)), FORMULA, where)
     report.at_most("slits: offset by formula", abs(slit["offset"] - (half_on - half_back) / 2), FORMULA, where)
     arms = sorted(angle % (2 * pi) for angle in (back, on, *node.directions(*partner)))

@@ -102,6 +102,37 @@ fn the_readme_commands_do_what_it_says() {
 }
 
 #[test]
+fn the_fixtures_are_made_by_their_commands() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let readme = include_str!("../../fixtures/README.md");
+    let place = tempfile::tempdir().expect("there is room");
+    let job = place.path().join("job").to_string_lossy().into_owned();
+    let lines = readme.lines().filter_map(|line| line.strip_prefix("    finwright "));
+    let mut parts = BTreeMap::new();
+    for line in lines {
+        let words =
+            line.split_whitespace().chain(["-q", "-o", &job, "--effort", "quick"]);
+        let output = run(root, &words.collect::<Vec<_>>());
+        assert_eq!(code(&output), 0, "{line}: {}", said(&output.stderr));
+        let text =
+            fs::read_to_string(place.path().join("job/job.json")).expect("written");
+        let value: serde_json::Value = serde_json::from_str(&text).expect("it is JSON");
+        let list = value["parts"].as_array().expect("parts are a list").clone();
+        parts
+            .insert(value["input"]["name"].as_str().unwrap_or_default().to_owned(), list);
+    }
+    let some = |file: &str, claim: &dyn Fn(&serde_json::Value) -> bool| {
+        assert!(parts[file].iter().any(|part| claim(&part["strip"])), "{file}");
+    };
+    some("ring.json", &|strip| strip["closed"] == true);
+    some("long.json", &|strip| {
+        strip["splices"].as_array().is_some_and(|s| !s.is_empty())
+    });
+    some("bricks.obj", &|strip| strip["nodes"].as_array().is_some_and(|n| n.len() == 2));
+    assert!(parts["mixed.obj"].len() > 10);
+}
+
+#[test]
 fn every_command_explains_itself_with_an_example() {
     let place = tempfile::tempdir().expect("there is room");
     let top = said(&run(place.path(), &["--help"]).stdout);
