@@ -88,20 +88,33 @@ fn offset_corner(
     vec![at + (a + b) * (distance / share)]
 }
 
-/// Replaces arcs that the offset would turn inside out by the corner of their tangents.
+/// Replaces arcs that the offset would turn inside out by the corner of their tangents. Their
+/// ends go too: the offset corner may lie beyond them, and the line would run back.
 fn without_vanishing_arcs(contour: &Contour, distance: f64) -> Contour {
-    let mut vertices = Vec::with_capacity(contour.vertices.len());
-    for segment in contour.segments() {
+    let vanishes = |segment: &Segment| {
         let shrinks = segment.bulge * distance < 0.0;
-        match segment.arc().filter(|arc| shrinks && arc.radius <= distance.abs() * 1.001)
-        {
-            Some(arc) => {
-                let reach = arc.radius * trig::tan(arc.sweep.abs() / 2.0);
-                vertices.push(Vertex::line(segment.from));
-                vertices.push(Vertex::line(segment.from + tangents(&segment).0 * reach));
-            }
-            None => vertices.push(Vertex::arc(segment.from, segment.bulge)),
+        let arc = segment.arc().filter(|_| shrinks)?;
+        let reach = arc.radius * trig::tan(arc.sweep.abs() / 2.0);
+        let corner = segment.from + tangents(segment).0 * reach;
+        (arc.radius <= distance.abs() * 1.001).then_some(corner)
+    };
+    let segments: Vec<Segment> = contour.segments().collect();
+    let corners: Vec<Option<Point2>> = segments.iter().map(vanishes).collect();
+    let count = segments.len();
+    let mut vertices = Vec::with_capacity(count);
+    for (k, segment) in segments.iter().enumerate() {
+        let before = (k + count - 1) % count;
+        let is_kept = match (corners[before], corners[k]) {
+            (None, None) => true,
+            (Some(_), Some(_)) => false,
+            (None, Some(_)) => segments[before].bulge != 0.0,
+            (Some(_), None) => segment.bulge != 0.0,
+        };
+        if is_kept {
+            let bulge = if corners[k].is_some() { 0.0 } else { segment.bulge };
+            vertices.push(Vertex::arc(segment.from, bulge));
         }
+        vertices.extend(corners[k].map(Vertex::line));
     }
     Contour { vertices }
 }
@@ -121,6 +134,20 @@ mod tests {
     fn a_square_grows_by_the_offset_on_each_side() {
         assert!((offset(&square(), 0.5).signed_area() - 25.0).abs() < 1e-12);
         assert!((offset(&square().reversed(), 0.5).signed_area() + 9.0).abs() < 1e-12);
+    }
+
+    #[test]
+    fn a_hole_with_corners_rounder_than_the_offset_gets_sharp_ones() {
+        // Found by fuzzing: a relief smaller than half the kerf made the line run back.
+        let ring =
+            [(0.0, 0.0), (0.0, 4.0), (4.0, 4.0), (4.0, 0.0), (0.0, 0.0), (0.0, 2.0)];
+        let ring = ring.map(|(x, y)| Point2::new(x, y));
+        let mut vertices = rounded(&ring, &[0.0, 0.1, 0.1, 0.1, 0.1, 0.0]);
+        vertices.remove(0);
+        vertices.pop();
+        let shrunk = offset(&Contour { vertices }, 0.5);
+        assert!(crate::geometry::predicates::is_simple(&shrunk.flattened(0.01)));
+        assert!((shrunk.signed_area() + 9.0).abs() < 1e-12, "{}", shrunk.signed_area());
     }
 
     #[test]

@@ -41,11 +41,16 @@ pub fn segments_meet(a: Point2, b: Point2, c: Point2, d: Point2) -> bool {
     apart(sc, sd) && apart(sa, sb)
 }
 
-/// Whether a closed polygon neither crosses nor touches itself, exactly.
+/// Whether a closed polygon neither crosses nor touches itself, exactly; one with a corner
+/// that is no number is none.
 pub fn is_simple(polygon: &[Point2]) -> bool {
     let count = polygon.len();
     let end = |k: usize| polygon[(k + 1) % count];
-    if count < 3 || (0..count).any(|k| polygon[k] == end(k)) {
+    let is_number = |p: &Point2| p.x.is_finite() && p.y.is_finite();
+    if count < 3
+        || !polygon.iter().all(is_number)
+        || (0..count).any(|k| polygon[k] == end(k))
+    {
         return false;
     }
     let mut order: Vec<usize> = (0..count).collect();
