@@ -9,7 +9,7 @@ use crate::lettering::{letter, width};
 use crate::parts::joint::{End, Opening, Slit};
 use crate::parts::outline::{Closure, Piece};
 use crate::parts::part::{Mark, MarkKind};
-use crate::parts::unfold::Fold;
+use crate::parts::unfold::{FlatAxis, Fold};
 
 /// What becomes of the lines along which a strip folds.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -45,6 +45,8 @@ pub(super) fn marks(
     marking: Marking,
 ) -> Vec<Mark> {
     let mut marks = Vec::new();
+    let whole = piece;
+    let piece = &with_a_fin(piece);
     let last = piece.axes.len() - 1;
     for fin in 0..last {
         let mut cell = Cell::new(piece, fin);
@@ -54,7 +56,7 @@ pub(super) fn marks(
             }
         };
         write(&node_text(piece.axes[fin].node), beside(piece, fin, Side::Left));
-        if fin + 1 == last {
+        if fin + 1 == last && piece.axes[fin].node != piece.axes[last].node {
             write(&node_text(piece.axes[last].node), beside(piece, last, Side::Right));
             // Only beside a splice does a piece end on a fold.
             if let Some(text) = fold_at(piece, folds, last) {
@@ -68,8 +70,35 @@ pub(super) fn marks(
             write(&text, across_from(beside(piece, fin, Side::Left)));
         }
     }
-    marks.extend(fold_lines(piece, folds, marking.folds));
+    marks.extend(fold_lines(whole, folds, marking.folds));
     marks
+}
+
+/// A piece of one node between splices has no whole fin to write on: it gets the rest of
+/// one, a short way from its axis toward the next, where no dovetail reaches.
+fn with_a_fin(piece: &Piece) -> Piece {
+    const WAY: f64 = 0.2;
+    let [axis] = piece.axes[..] else { return piece.clone() };
+    let toward = |next: &FlatAxis| {
+        let between = |from: f64, to: f64| from + (to - from) * WAY;
+        FlatAxis {
+            node: axis.node,
+            foot: axis.foot + (next.foot - axis.foot) * WAY,
+            up: (axis.up + (next.up - axis.up) * WAY).normalize(),
+            below: between(axis.below, next.below),
+            above: between(axis.above, next.above),
+        }
+    };
+    let mut piece = piece.clone();
+    match piece.beyond {
+        [_, Some(right)] => piece.axes.push(toward(&right)),
+        [Some(left), None] => {
+            piece.axes.insert(0, toward(&left));
+            piece.slits = piece.slits.into_values().map(|slit| (1, slit)).collect();
+        }
+        [None, None] => {}
+    }
+    piece
 }
 
 /// A node number; one that reads as another upside down ends in a full stop.

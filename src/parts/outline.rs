@@ -26,6 +26,8 @@ pub struct Piece {
     pub slits: BTreeMap<usize, Slit>,
     /// Left and right closure.
     pub closures: [Closure; 2],
+    /// The axes at the far ends of the fins that splices cut through, left and right.
+    pub beyond: [Option<FlatAxis>; 2],
 }
 
 /// Which way along the strip.
@@ -90,9 +92,13 @@ struct Ends {
 
 fn ends(piece: &Piece, way: Way) -> Ends {
     let last = piece.axes.len() - 1;
-    let (axis, next) = match way {
-        Way::Left => (&piece.axes[0], &piece.axes[1.min(last)]),
-        Way::Right => (&piece.axes[last], &piece.axes[last.saturating_sub(1)]),
+    let axis = &piece.axes[if way == Way::Left { 0 } else { last }];
+    // The next axis inward; beyond the splice, if a piece has one node only.
+    let next = match (way, last) {
+        (Way::Left, 0) => piece.beyond[1].as_ref().unwrap_or(axis),
+        (Way::Right, 0) => piece.beyond[0].as_ref().unwrap_or(axis),
+        (Way::Left, _) => &piece.axes[1],
+        (Way::Right, _) => &piece.axes[last - 1],
     };
     match &piece.closures[way as usize] {
         Closure::Splice(_) => Ends { corners: None, keeps_axis: true },

@@ -113,6 +113,8 @@ impl Whole<'_> {
                 closure(left, start, self.fit.clearance),
                 closure(right, finish, 0.0),
             ],
+            beyond: [left, right.map(|fin| fin + 1)]
+                .map(|place| place.map(|place| self.strip.axes[place])),
         }
     }
 
