@@ -116,7 +116,38 @@ impl<F: Diagnostic + Located> From<F> for Finding {
     }
 }
 
+/// A number for a message: six digits at most, so that nobody has to count zeros.
+pub fn short(value: f64) -> String {
+    let six: f64 = format!("{value:.5e}").parse().unwrap_or(value);
+    if six == 0.0 || !six.is_finite() || (1e-4..1e9).contains(&six.abs()) {
+        format!("{}", six + 0.0)
+    } else {
+        format!("{six:e}")
+    }
+}
+
 /// Whether nothing found forbids cutting.
 pub fn passes(findings: &[Finding]) -> bool {
     findings.iter().all(|finding| finding.severity != Severity::Error)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_in_messages_are_short() {
+        let cases = [
+            (20.0, "20"),
+            (-0.0, "0"),
+            (0.1 + 0.2, "0.3"),
+            (1234.5678, "1234.57"),
+            (1e20, "1e20"),
+            (-1.0 / 3e7, "-3.33333e-8"),
+            (f64::NAN, "NaN"),
+        ];
+        for (value, expected) in cases {
+            assert_eq!(short(value), expected);
+        }
+    }
 }

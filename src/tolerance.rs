@@ -62,3 +62,7 @@ pub const BEZIER_MM: f64 = 1e-5;
 
 /// Directions whose squared length is off 1 by less are unit vectors, but for rounding.
 pub const UNIT_LENGTH: f64 = 8.0 * f64::EPSILON;
+
+/// Farthest that anything may be from the origin, mm; there coordinates are still kept to
+/// 1.2e-7 mm, less than what is written.
+pub const FARTHEST_MM: f64 = 1e9;

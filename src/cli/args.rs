@@ -103,9 +103,9 @@ pub struct InputArgs {
     #[arg(long, default_value = "1:1", value_parser = scale, value_name = "1:N")]
     pub scale: Scale,
 
-    /// Unit of an OBJ file: mm, cm, m, in or ft
-    #[arg(long, default_value = "mm")]
-    pub units: Unit,
+    /// Unit of an OBJ file: mm, cm, m, in or ft [default: mm]
+    #[arg(long)]
+    pub units: Option<Unit>,
 
     /// Node axes: `vn` (from the file), `normal`, a direction X,Y,Z, or point:X,Y,Z (away
     /// from that point, in the file's units)

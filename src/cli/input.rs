@@ -2,12 +2,11 @@
 
 use crate::cli::args::{Fix, InputArgs};
 use crate::design::examples;
-use crate::diagnostic::Finding;
-use crate::structure::{
-    Draft, ObjOptions, ReadError, StructureFinding, read_json, read_obj,
-};
+use crate::diagnostic::{Finding, Located, Place};
+use crate::structure::{Draft, ObjOptions, ReadError, read_json, read_obj};
 use crate::template::{self, Template, TemplateErrors};
 use crate::tolerance::SAME_HEIGHT;
+use crate::units::Unit;
 use miette::Diagnostic;
 use sha2::{Digest, Sha256};
 use std::path::{Path, PathBuf};
@@ -22,17 +21,29 @@ pub(super) enum InputError {
     Unreadable { path: PathBuf, source: std::io::Error },
 
     #[error("{} is no text file: byte {byte} is no UTF-8", path.display())]
-    #[diagnostic(code(input::not_text), help("structures are JSON or OBJ text files"))]
+    #[diagnostic(
+        code(input::not_text),
+        help("structures are JSON or OBJ text, templates TOML text; save it as UTF-8")
+    )]
     NotText { path: PathBuf, byte: usize },
 
     #[error("{} is neither .json nor .obj", path.display())]
     #[diagnostic(
         code(input::unknown_format),
         help(
-            "export the mesh as OBJ, or name an embedded structure (`finwright example list`)"
+            "export the mesh as OBJ; `finwright example list` shows embedded structures"
         )
     )]
     UnknownFormat { path: PathBuf },
+
+    #[error("there is no file and no embedded structure \"{found}\"")]
+    #[diagnostic(
+        code(input::unknown_structure),
+        help(
+            "the nearest embedded one is \"{nearest}\"; `finwright example list` shows all"
+        )
+    )]
+    UnknownStructure { found: String, nearest: String },
 
     #[error("{}: {source}", path.display())]
     #[diagnostic(forward(source))]
@@ -41,6 +52,25 @@ pub(super) enum InputError {
     #[error(transparent)]
     #[diagnostic(transparent)]
     BadTemplate(#[from] TemplateErrors),
+}
+
+/// An option that had no effect.
+#[derive(Debug, Error, Diagnostic)]
+#[allow(missing_docs, reason = "the messages say it")]
+pub(super) enum InputNote {
+    #[error("--units was not used: {file} says its own unit")]
+    #[diagnostic(
+        code(input::units_ignored),
+        severity(Warning),
+        help("change \"units\" in the file, or use `--scale`; --units is for OBJ files")
+    )]
+    UnitsIgnored { file: String },
+}
+
+impl Located for InputNote {
+    fn place(&self) -> Place {
+        Place::default()
+    }
 }
 
 /// A structure that was read, with where it came from.
@@ -74,7 +104,13 @@ pub(super) fn structure(args: &InputArgs) -> Result<Input, InputError> {
                 draft.axes = axes;
             }
             let sha256 = sha256(format!("{draft:?}").as_bytes());
-            Input { draft, file: named.to_owned(), sha256, findings: Vec::new() }
+            let file = named.to_owned();
+            let findings = units_ignored(args, &file);
+            Input { draft, file, sha256, findings }
+        }
+        // A name without an ending can only have been meant as an embedded one.
+        None if !path.exists() && path.extension().is_none() => {
+            return Err(unknown_structure(named));
         }
         _ => from_file(path, args)?,
     };
@@ -88,34 +124,74 @@ pub(super) fn structure(args: &InputArgs) -> Result<Input, InputError> {
     Ok(input)
 }
 
+/// The error for a structure that is not there, with the nearest name that is.
+pub(super) fn unknown_structure(found: &str) -> InputError {
+    let names = examples::ALL.iter().map(|example| example.name);
+    let nearest = template::nearest(found, names);
+    InputError::UnknownStructure { found: found.to_owned(), nearest }
+}
+
+fn units_ignored(args: &InputArgs, file: &str) -> Vec<Finding> {
+    let note = args.units.map(|_| InputNote::UnitsIgnored { file: file.to_owned() });
+    note.into_iter().map(Finding::from).collect()
+}
+
 fn from_file(path: &Path, args: &InputArgs) -> Result<Input, InputError> {
-    let text = text(path)?;
+    let file = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
     let bad = |source| InputError::BadStructure { path: path.to_owned(), source };
     let ending = path.extension().unwrap_or_default().to_string_lossy().to_lowercase();
-    let (mut draft, facts) = match ending.as_str() {
-        "json" => (read_json(&text, args.axes).map_err(bad)?, Vec::new()),
-        "obj" => {
-            let options = ObjOptions { unit: args.units, axes: args.axes };
-            read_obj(&text, &options).map_err(bad)?
-        }
-        _ => return Err(InputError::UnknownFormat { path: path.to_owned() }),
+    let bytes = bytes(path, |path| match ending.as_str() {
+        "json" | "obj" => Ok(()),
+        _ => Err(InputError::UnknownFormat { path: path.to_owned() }),
+    })?;
+    let sha256 = sha256(&bytes);
+    let (mut draft, notes, mut findings) = if ending == "json" {
+        let (draft, notes) = read_json(&text(path, bytes)?, args.axes).map_err(bad)?;
+        (draft, notes, units_ignored(args, &file))
+    } else {
+        // Names and comments may be in any alphabet; what counts in an OBJ file is ASCII.
+        let text = String::from_utf8_lossy(&bytes);
+        let unit = args.units.unwrap_or(Unit::Millimetre);
+        let options = ObjOptions { unit, axes: args.axes };
+        let (draft, notes) = read_obj(&text, &options).map_err(bad)?;
+        (draft, notes, Vec::new())
     };
     if draft.name.trim().is_empty() {
         draft.name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
     }
-    let findings = facts.into_iter().map(|fact: StructureFinding| fact.into()).collect();
-    let file = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
-    Ok(Input { draft, file, sha256: sha256(text.as_bytes()), findings })
+    findings.extend(notes.into_iter().map(Finding::from));
+    Ok(Input { draft, file, sha256, findings })
 }
 
-/// The text of a file.
-pub(super) fn text(path: &Path) -> Result<String, InputError> {
-    let bytes = std::fs::read(path)
-        .map_err(|source| InputError::Unreadable { path: path.to_owned(), source })?;
+/// What is in a file that is there and may be read, without a byte order mark.
+fn bytes(
+    path: &Path,
+    may_be_read: impl Fn(&Path) -> Result<(), InputError>,
+) -> Result<Vec<u8>, InputError> {
+    let unreadable = |source| InputError::Unreadable { path: path.to_owned(), source };
+    std::fs::metadata(path).map_err(unreadable)?;
+    may_be_read(path)?;
+    let mut bytes = std::fs::read(path).map_err(unreadable)?;
+    if bytes.starts_with(b"\xEF\xBB\xBF") {
+        bytes.drain(..3);
+    }
+    // UTF-16, or no text at all.
+    match bytes.iter().position(|&byte| byte == 0) {
+        Some(byte) => Err(InputError::NotText { path: path.to_owned(), byte }),
+        None => Ok(bytes),
+    }
+}
+
+fn text(path: &Path, bytes: Vec<u8>) -> Result<String, InputError> {
     String::from_utf8(bytes).map_err(|error| InputError::NotText {
         path: path.to_owned(),
         byte: error.utf8_error().valid_up_to(),
     })
+}
+
+/// The text of a file.
+pub(super) fn text_of(path: &Path) -> Result<String, InputError> {
+    text(path, bytes(path, |_| Ok(()))?)
 }
 
 /// The nodes to hold; `None` leaves it to the structure: its boundary.
@@ -150,7 +226,7 @@ pub(super) fn template(named: &str) -> Result<Template, InputError> {
     }
     if named.ends_with(".toml") || path.exists() {
         let name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
-        return Ok(template::read(&text(path)?, &name)?);
+        return Ok(template::read(&text_of(path)?, &name)?);
     }
     Err(InputError::BadTemplate(template::unknown_name(named)))
 }

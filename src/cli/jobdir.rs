@@ -25,8 +25,15 @@ pub(super) enum JobDirError {
     )]
     Foreign { dir: PathBuf },
 
+    #[error("{} is the folder you are in; it cannot be replaced as a whole", dir.display())]
+    #[diagnostic(code(job::current_directory), help("name a folder inside it: `-o job`"))]
+    CurrentDirectory { dir: PathBuf },
+
     #[error("{} could not be written: {source}", path.display())]
-    #[diagnostic(code(job::disk), help("nothing was changed in the job's folder"))]
+    #[diagnostic(
+        code(job::disk),
+        help("nothing was changed there; choose another place with `-o`")
+    )]
     Disk { path: PathBuf, source: io::Error },
 }
 
@@ -35,20 +42,33 @@ pub(super) enum JobDirError {
 /// # Errors
 /// [`JobDirError`]; then the place is as it was.
 pub(super) fn write(dir: &Path, files: &[JobFile]) -> Result<(), JobDirError> {
-    if !may_be_replaced(dir) {
-        return Err(JobDirError::Foreign { dir: dir.to_owned() });
-    }
+    may_be_written(dir)?;
     let name = dir.file_name().unwrap_or_default().to_string_lossy().into_owned();
     let beside = |suffix: &str| dir.with_file_name(format!(".{name}.{suffix}"));
     let process = std::process::id();
     let new = beside(&format!("new-{process}"));
     let old = beside(&format!("old-{process}"));
     let written = write_files(&new, files).and_then(|()| swap(dir, &new, &old));
-    if written.is_err() {
+    written.map_err(|source| {
         // Best effort: the error that counts is the first one.
         let _ = fs::remove_dir_all(&new);
+        // Where the user meant it to be, not where it was on the way there.
+        JobDirError::Disk { path: dir.to_owned(), source }
+    })
+}
+
+/// Whether a job may be put there.
+///
+/// # Errors
+/// [`JobDirError::Foreign`] if something else is there, [`JobDirError::CurrentDirectory`]
+/// if one stands in it.
+pub(super) fn may_be_written(dir: &Path) -> Result<(), JobDirError> {
+    let here = std::env::current_dir().and_then(fs::canonicalize).ok();
+    if here.is_some() && fs::canonicalize(dir).ok() == here {
+        return Err(JobDirError::CurrentDirectory { dir: dir.to_owned() });
     }
-    written
+    let foreign = || JobDirError::Foreign { dir: dir.to_owned() };
+    may_be_replaced(dir).then_some(()).ok_or_else(foreign)
 }
 
 /// Whether nothing is there, or an empty folder, or a job of ours.
@@ -66,34 +86,29 @@ fn may_be_replaced(dir: &Path) -> bool {
     ours || fs::read_dir(dir).is_ok_and(|mut entries| entries.next().is_none())
 }
 
-fn write_files(new: &Path, files: &[JobFile]) -> Result<(), JobDirError> {
-    let disk = |path: &Path| {
-        let path = path.to_owned();
-        move |source| JobDirError::Disk { path, source }
-    };
+fn write_files(new: &Path, files: &[JobFile]) -> io::Result<()> {
     for file in files {
         let path = new.join(&file.path);
         if let Some(folder) = path.parent() {
-            fs::create_dir_all(folder).map_err(disk(folder))?;
+            fs::create_dir_all(folder)?;
         }
-        fs::write(&path, &file.bytes).map_err(disk(&path))?;
+        fs::write(&path, &file.bytes)?;
     }
     Ok(())
 }
 
 /// Puts `new` at `dir`; what was there goes by way of `old`.
-fn swap(dir: &Path, new: &Path, old: &Path) -> Result<(), JobDirError> {
-    let disk = |source| JobDirError::Disk { path: dir.to_owned(), source };
+fn swap(dir: &Path, new: &Path, old: &Path) -> io::Result<()> {
     let replaces = dir.exists();
     if replaces {
-        fs::rename(dir, old).map_err(disk)?;
+        fs::rename(dir, old)?;
     }
     if let Err(source) = fs::rename(new, dir) {
         if replaces {
             // Back to where it was.
             let _ = fs::rename(old, dir);
         }
-        return Err(disk(source));
+        return Err(source);
     }
     if replaces {
         // The job stands; an old one that cannot be removed does no harm.

@@ -20,7 +20,7 @@ use crate::watch::Watch;
 use clap::CommandFactory;
 use miette::Diagnostic;
 use std::io::Write;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::process::ExitCode;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -169,6 +169,9 @@ fn make(args: &MakeArgs, voice: Voice) -> Result<End, Failure> {
     if let Some(end) = joint_not_built(args.input.joint) {
         return Ok(end);
     }
+    if let Some(dir) = &args.output {
+        jobdir::may_be_written(dir)?;
+    }
     let mut ordered = ordered(&args.input, args.accept_flexible.as_ref(), voice)?;
     voice.findings(&ordered.job.findings);
     ordered.terminal.resume("export");
@@ -206,8 +209,10 @@ fn make(args: &MakeArgs, voice: Voice) -> Result<End, Failure> {
 
 /// A name that can be a folder.
 fn folder_name(name: &str) -> String {
+    // Most disks take 255 bytes; a character may have four.
+    const LONGEST: usize = 50;
     let safe = |c: char| if c.is_alphanumeric() || "-_ .".contains(c) { c } else { '-' };
-    let name: String = name.chars().map(safe).collect();
+    let name: String = name.chars().map(safe).take(LONGEST).collect();
     let name = name.trim_matches(['.', ' ']);
     if name.is_empty() { "job".to_owned() } else { name.to_owned() }
 }
@@ -302,7 +307,7 @@ fn templates(action: TemplateAction) -> Result<End, Failure> {
         TemplateAction::Check { file } => {
             let name =
                 file.file_stem().unwrap_or_default().to_string_lossy().into_owned();
-            let text = input::text(&file)?;
+            let text = input::text_of(&file)?;
             template::read(&text, &name).map_err(InputError::BadTemplate)?;
             let _ = writeln!(std::io::stderr(), "{}: nothing wrong", file.display());
             Ok(End::Done)
@@ -318,8 +323,7 @@ fn example(action: ExampleAction) -> Result<End, Failure> {
         }
         ExampleAction::Write { name, output } => {
             let Some(text) = example_text(&name) else {
-                let path = PathBuf::from(name);
-                return Err(InputError::UnknownFormat { path }.into());
+                return Err(input::unknown_structure(&name).into());
             };
             let Some(path) = output else { return Ok(print(&text)) };
             std::fs::write(&path, text)

@@ -1,6 +1,6 @@
 //! What can be wrong with parts.
 
-use crate::diagnostic::{Located, Place};
+use crate::diagnostic::{Located, Place, short};
 use miette::Diagnostic;
 use thiserror::Error;
 
@@ -48,8 +48,9 @@ pub enum PartFinding {
     #[diagnostic(
         code(parts::crossing_too_sharp),
         help(
-            "at least {least_deg}° (`gate.crossing_least_deg`) are needed for the joint to \
-             hold; turn the mesh's edges apart"
+            "at least {}° (`gate.crossing_least_deg`) are needed for the joint to hold; turn \
+             the mesh's edges apart",
+            short(*least_deg)
         )
     )]
     CrossingTooSharp {

@@ -9,7 +9,7 @@ use crate::parts::finding::PartFinding;
 use crate::parts::fit::Fit;
 use crate::parts::rank::ranks;
 use crate::parts::unfold::FlatStrip;
-use crate::structure::{FinGrid, Structure};
+use crate::structure::{FinTree, Structure};
 use std::collections::BTreeMap;
 use std::f64::consts::PI;
 
@@ -133,11 +133,11 @@ pub fn join(
     strips: &[FlatStrip],
     fit: &Fit,
 ) -> (Joinery, Vec<PartFinding>) {
-    let grid = FinGrid::new(structure);
+    let tree = FinTree::new(structure);
     let at = passages(structure, strips);
     let meetings: Vec<Meeting> = at
         .iter()
-        .map(|(&node, passages)| Meeting { structure, grid: &grid, fit, node, passages })
+        .map(|(&node, passages)| Meeting { structure, tree: &tree, fit, node, passages })
         .collect();
     let laps: Vec<Option<Lap>> = meetings.iter().map(Meeting::lap).collect();
     let (order, rank) = ranks(strips, laps.iter().flatten().map(Lap::strips));
@@ -199,7 +199,7 @@ fn passages(
 /// The strips at one node.
 struct Meeting<'a> {
     structure: &'a Structure,
-    grid: &'a FinGrid,
+    tree: &'a FinTree,
     fit: &'a Fit,
     node: usize,
     passages: &'a [Passage],
@@ -240,7 +240,7 @@ impl Meeting<'_> {
         let onward: Vector3 = -self.structure.direction(self.node, from);
         let reach = onward * (2.0 * self.fit.overhang + self.fit.thickness);
         let axis = [node.bottom(), node.top()];
-        !self.grid.blocks(self.structure, self.node, axis, reach)
+        !self.tree.blocks(self.structure, self.node, axis, reach)
     }
 
     /// Ends that do not lap, and how far each must stay from the axis.

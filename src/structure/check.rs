@@ -1,10 +1,10 @@
 //! Judging a draft and the structure made of it, all faults at once.
 
 use crate::geometry::{Point3, trig};
-use crate::structure::draft::{Draft, area_vector, face_edges};
+use crate::structure::draft::{Draft, area_vector};
 use crate::structure::finding::{FaceFault, StructureFinding};
-use crate::structure::{Node, Structure};
-use crate::tolerance::{NO_AXIS, NO_LENGTH_MM, Tolerance};
+use crate::structure::{Node, Structure, surface};
+use crate::tolerance::{FARTHEST_MM, NO_AXIS, NO_LENGTH_MM, Tolerance};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Off-plane distance of a quad's corners from their middle plane and their largest
@@ -58,8 +58,11 @@ fn values(draft: &Draft) -> Vec<StructureFinding> {
         let wrong = all.clone().find(|(_, value)| !value.is_finite());
         if let Some((what, value)) = wrong {
             findings.push(StructureFinding::NotFinite { node, what, value });
-        } else if let Some((what, value)) = all.clone().find(|(_, v)| v.abs() > 1e9) {
-            findings.push(StructureFinding::NotFinite { node, what, value });
+        } else if let Some((what, value)) =
+            all.clone().find(|(_, v)| v.abs() > FARTHEST_MM)
+        {
+            let limit = FARTHEST_MM;
+            findings.push(StructureFinding::TooLarge { node, what, value, limit });
         } else if axis.norm() < NO_AXIS {
             findings.push(StructureFinding::ZeroAxis { node });
         } else if below < 0.0 || above < 0.0 || below + above < NO_LENGTH_MM {
@@ -71,12 +74,14 @@ fn values(draft: &Draft) -> Vec<StructureFinding> {
 
 fn indices(draft: &Draft) -> Vec<StructureFinding> {
     let nodes = draft.positions.len();
-    let faces = draft.faces.iter().enumerate().map(|(k, f)| ("face", k, f.as_slice()));
+    let faces = draft.faces.iter().enumerate();
+    let faces = faces.map(|(k, f)| ("face", Some(k), f.as_slice()));
     let fins = draft.fins.iter().flatten().enumerate();
-    let fins = fins.map(|(k, f)| ("fin", k, f.as_slice()));
+    let fins = fins.map(|(k, f)| ("fin", Some(k), f.as_slice()));
     let strips = draft.strips.iter().flatten().enumerate();
-    let strips = strips.map(|(k, s)| ("strip", k, s.as_slice()));
-    let fixed = draft.fixed.iter().map(|f| ("fixed node list", 0, f.as_slice()));
+    let strips = strips.map(|(k, s)| ("strip", Some(k), s.as_slice()));
+    let fixed = draft.fixed.iter();
+    let fixed = fixed.map(|f| ("the list of fixed nodes", None, f.as_slice()));
     faces
         .chain(fins)
         .chain(strips)
@@ -94,7 +99,7 @@ fn indices(draft: &Draft) -> Vec<StructureFinding> {
 
 /// Faces, edges and fins as a mesh; indices are in range.
 pub(super) fn mesh(draft: &Draft) -> Vec<StructureFinding> {
-    [faces(draft), edges(draft), fins(draft), pieces(draft)].concat()
+    [faces(draft), surface::faults(&draft.faces), fins(draft), pieces(draft)].concat()
 }
 
 fn faces(draft: &Draft) -> Vec<StructureFinding> {
@@ -119,24 +124,6 @@ fn faces(draft: &Draft) -> Vec<StructureFinding> {
         }
     }
     findings
-}
-
-fn edges(draft: &Draft) -> Vec<StructureFinding> {
-    let mut uses: BTreeMap<[usize; 2], Vec<(usize, bool)>> = BTreeMap::new();
-    for (face, corners) in draft.faces.iter().enumerate() {
-        for (i, j) in face_edges(corners) {
-            uses.entry([i.min(j), i.max(j)]).or_default().push((face, i < j));
-        }
-    }
-    uses.into_iter()
-        .filter_map(|(fin, faces)| match faces.as_slice() {
-            [(first, a), (second, b)] if a == b && first != second => {
-                Some(StructureFinding::FaceOrientation { first: *first, second: *second })
-            }
-            [] | [_] | [_, _] => None,
-            more => Some(StructureFinding::NonManifoldEdge { fin, count: more.len() }),
-        })
-        .collect()
 }
 
 fn fins(draft: &Draft) -> Vec<StructureFinding> {
@@ -214,6 +201,9 @@ fn fin_shape(
                 least_deg: tolerance.axis_edge_angle.to_degrees(),
             });
         }
+    }
+    if edge.cross(&ends[0].axis).dot(&edge.cross(&ends[1].axis)) < 0.0 {
+        return Some(StructureFinding::AxesOpposed { fin });
     }
     if let Some(share) = depth_share(ends) {
         let share_percent = share * 100.0;

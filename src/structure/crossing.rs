@@ -3,81 +3,60 @@
 use crate::geometry::{Point3, Vector3};
 use crate::structure::Structure;
 use crate::structure::finding::StructureFinding;
-use std::collections::BTreeSet;
+use rstar::primitives::{GeomWithData, Rectangle};
+use rstar::{AABB, RTree};
 
-/// All pairs of fins without a common node that share a point.
+/// Pairs of crossing fins that are listed; then the search stops, for a structure with so
+/// many has one cause, and all pairs would be as many as the square of the fins.
+const CROSSINGS_LISTED: usize = 1000;
+
+/// Pairs of fins without a common node that share a point.
 pub(super) fn fins_that_cross(structure: &Structure) -> Vec<StructureFinding> {
-    let grid = FinGrid::new(structure);
+    let tree = FinTree::new(structure);
     let fins = structure.fins();
-    let apart = |a: usize, b: usize| !fins[a].iter().any(|node| fins[b].contains(node));
     let mut findings = Vec::new();
-    for (a, quad) in grid.quads.iter().enumerate() {
-        let near = grid.near(quad).into_iter().filter(|&b| a < b && apart(a, b));
-        let crossed = near.filter(|&b| quads_meet(quad, &grid.quads[b]));
-        findings.extend(
-            crossed
-                .map(|b| StructureFinding::FinsCross { first: fins[a], second: fins[b] }),
-        );
+    for (a, quad) in tree.quads.iter().enumerate() {
+        let apart = |b: usize| !fins[a].iter().any(|node| fins[b].contains(node));
+        for b in tree.near(quad).into_iter().filter(|&b| a < b && apart(b)) {
+            if !quads_meet(quad, &tree.quads[b]) {
+                continue;
+            }
+            if findings.len() == CROSSINGS_LISTED {
+                let listed = CROSSINGS_LISTED;
+                findings.push(StructureFinding::FinsCrossOften { listed });
+                return findings;
+            }
+            let (first, second) = (fins[a], fins[b]);
+            findings.push(StructureFinding::FinsCross { first, second });
+        }
     }
     findings
 }
 
-/// The fins of a structure, sorted into cells of about one fin's size.
+/// The fins of a structure in an R*-tree of their boxes, whose size does not depend on how
+/// far apart or how unlike in size they are.
 #[derive(Debug, Clone)]
-pub struct FinGrid {
+pub struct FinTree {
     quads: Vec<[Point3; 4]>,
-    cell: f64,
-    entries: Vec<([i64; 3], usize)>,
+    boxes: RTree<GeomWithData<Rectangle<[f64; 3]>, usize>>,
 }
 
-impl FinGrid {
+impl FinTree {
     /// Sorts the fins in.
     pub fn new(structure: &Structure) -> Self {
         let quads: Vec<[Point3; 4]> =
             structure.fins().iter().map(|&fin| structure.corners(fin)).collect();
-        let size = |quad: &[Point3; 4]| {
-            let (low, high) = bounds(quad);
-            (high - low).max()
-        };
-        let mut sizes: Vec<f64> = quads.iter().map(size).collect();
-        sizes.sort_by(f64::total_cmp);
-        let median = sizes.get(sizes.len() / 2).copied().unwrap_or(1.0);
-        // A few huge fins among small ones would touch too many cells.
-        let cell = median.max(sizes.last().copied().unwrap_or(1.0) / 16.0);
-        let mut grid = Self { quads, cell, entries: Vec::new() };
-        for index in 0..grid.quads.len() {
-            let cells = grid.cells(&grid.quads[index]);
-            grid.entries.extend(cells.map(|cell| (cell, index)));
-        }
-        grid.entries.sort_unstable();
-        grid
+        let entry = |(index, quad)| GeomWithData::new(around(quad).into(), index);
+        let boxes = RTree::bulk_load(quads.iter().enumerate().map(entry).collect());
+        Self { quads, boxes }
     }
 
-    /// The fins, by index, whose boxes overlap that of `quad`.
-    fn near(&self, quad: &[Point3; 4]) -> BTreeSet<usize> {
-        let (low, high) = bounds(quad);
-        let overlaps = |&index: &usize| {
-            let (l, h) = bounds(&self.quads[index]);
-            (0..3).all(|k| l[k] <= high[k] && low[k] <= h[k])
-        };
-        self.cells(quad)
-            .flat_map(|cell| {
-                let start = self.entries.partition_point(|entry| entry.0 < cell);
-                self.entries[start..].iter().take_while(move |entry| entry.0 == cell)
-            })
-            .map(|entry| entry.1)
-            .filter(overlaps)
-            .collect()
-    }
-
-    fn cells(&self, quad: &[Point3; 4]) -> impl Iterator<Item = [i64; 3]> + use<> {
-        let (low, high) = bounds(quad);
-        let at = |x: f64| (x / self.cell).floor() as i64;
-        let [x, y, z] = [0, 1, 2].map(|k| at(low[k])..=at(high[k]));
-        x.flat_map(move |x| {
-            let z = z.clone();
-            y.clone().flat_map(move |y| z.clone().map(move |z| [x, y, z]))
-        })
+    /// The fins, by index, whose boxes overlap that of `quad`, in their order.
+    fn near(&self, quad: &[Point3; 4]) -> Vec<usize> {
+        let found = self.boxes.locate_in_envelope_intersecting(around(quad));
+        let mut near: Vec<usize> = found.map(|entry| entry.data).collect();
+        near.sort_unstable();
+        near
     }
 
     /// Whether a quad, given by a segment and its copy `reach` further, meets a fin that
@@ -97,8 +76,8 @@ impl FinGrid {
     }
 }
 
-fn bounds(quad: &[Point3; 4]) -> (Point3, Point3) {
-    quad.iter().fold((quad[0], quad[0]), |(low, high), p| (low.inf(p), high.sup(p)))
+fn around(quad: &[Point3; 4]) -> AABB<[f64; 3]> {
+    AABB::from_points(&quad.map(|p| [p.x, p.y, p.z]))
 }
 
 /// Whether two planar quads share a point: a side of one goes through the other.

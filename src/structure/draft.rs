@@ -69,8 +69,9 @@ pub fn face_edges(face: &[usize]) -> impl Iterator<Item = (usize, usize)> + '_ {
 
 /// The vector area of a polygon (Newell): its normal, as long as the area.
 pub fn area_vector(positions: &[Point3], face: &[usize]) -> Vector3 {
-    let twice: Vector3 = face_edges(face)
-        .map(|(i, j)| positions[i].coords.cross(&positions[j].coords))
-        .sum();
+    // From a corner of the face: far from the origin the products would drown the area.
+    let Some(&first) = face.first() else { return Vector3::zeros() };
+    let arm = |node: usize| positions[node] - positions[first];
+    let twice: Vector3 = face_edges(face).map(|(i, j)| arm(i).cross(&arm(j))).sum();
     twice / 2.0
 }

@@ -1,6 +1,6 @@
 //! Everything that can be wrong with a structure.
 
-use crate::diagnostic::{Located, Place};
+use crate::diagnostic::{Located, Place, short};
 use miette::Diagnostic;
 use thiserror::Error;
 
@@ -22,6 +22,16 @@ pub enum StructureFinding {
     )]
     NotFinite { node: usize, what: &'static str, value: f64 },
 
+    #[error("the {what} of node {node} is {}, beyond {} mm", short(*value), short(*limit))]
+    #[diagnostic(
+        code(structure::too_large),
+        help(
+            "move the model near the origin (geographic coordinates lose their last \
+             digits), and check its units and `--scale`"
+        )
+    )]
+    TooLarge { node: usize, what: &'static str, value: f64, limit: f64 },
+
     #[error("{count} {what} are given for {nodes} nodes")]
     #[diagnostic(
         code(structure::count_mismatch),
@@ -29,12 +39,17 @@ pub enum StructureFinding {
     )]
     CountMismatch { what: &'static str, count: usize, nodes: usize },
 
-    #[error("{what} {index} names node {node}, but there are only {nodes} nodes")]
+    #[error("{what}{} names node {node}, but nodes are counted from 0 and there are {nodes}", ordinal(*index))]
     #[diagnostic(
         code(structure::index_out_of_range),
-        help("nodes are counted from 0 in JSON and from 1 in OBJ")
+        help("only in OBJ files nodes are counted from 1")
     )]
-    IndexOutOfRange { what: &'static str, index: usize, node: usize, nodes: usize },
+    IndexOutOfRange {
+        what: &'static str,
+        index: Option<usize>,
+        node: usize,
+        nodes: usize,
+    },
 
     #[error("the axis of node {node} has no length")]
     #[diagnostic(
@@ -43,18 +58,10 @@ pub enum StructureFinding {
     )]
     ZeroAxis { node: usize },
 
-    #[error("no node axes were given; {nodes} axes were taken from vertex normals")]
-    #[diagnostic(
-        code(structure::axes_from_normals),
-        severity(Warning),
-        help(
-            "fins may not be planar: give axes as `vn`, or `--axes X,Y,Z` or \
-             `--axes point:X,Y,Z`, which make every fin planar"
-        )
+    #[error(
+        "fins reach {} mm below and {} mm above node {node}: no depth to cut",
+        short(*below), short(*above)
     )]
-    AxesFromNormals { nodes: usize },
-
-    #[error("node {node} lies {below} mm below and {above} mm above: no depth to cut")]
     #[diagnostic(
         code(structure::no_depth),
         help("give a positive depth, for instance `--depth 20,20`")
@@ -78,6 +85,26 @@ pub enum StructureFinding {
         help("an edge may belong to two faces; remove or separate the others")
     )]
     NonManifoldEdge { fin: [usize; 2], count: usize },
+
+    #[error(
+        "the faces cannot all look to one side, as on a Moebius strip: turned to agree \
+         with their neighbours, faces {first} and {second} still do not"
+    )]
+    #[diagnostic(
+        code(structure::not_orientable),
+        help(
+            "node axes need one side to point to; cut the mesh open along a row of edges"
+        )
+    )]
+    NotOrientable { first: usize, second: usize },
+
+    #[error("the faces around node {node} are {fans} fans that touch only there")]
+    #[diagnostic(
+        code(structure::non_manifold_node),
+        severity(Warning),
+        help("if that is not meant, split the node, or add the faces between")
+    )]
+    NonManifoldNode { node: usize, fans: usize },
 
     #[error("faces {first} and {second} run the same way along their common edge")]
     #[diagnostic(
@@ -103,7 +130,7 @@ pub enum StructureFinding {
     )]
     Disconnected { pieces: usize, node: usize },
 
-    #[error("{count} nodes have no fin, the first is node {node}")]
+    #[error("nodes without a fin: {count}, the first is node {node}")]
     #[diagnostic(
         code(structure::loose_node),
         severity(Warning),
@@ -111,7 +138,7 @@ pub enum StructureFinding {
     )]
     LooseNode { node: usize, count: usize },
 
-    #[error("nodes {} and {} are {length} mm apart", fin[0], fin[1])]
+    #[error("nodes {} and {} are {} mm apart", fin[0], fin[1], short(*length))]
     #[diagnostic(
         code(structure::short_fin),
         help("merge the two nodes; a fin needs a length")
@@ -131,6 +158,15 @@ pub enum StructureFinding {
         help("an axis must stand across its fins, by {least_deg:.0}° at least")
     )]
     AxisAlongFin { node: usize, fin: [usize; 2], angle_deg: f64, least_deg: f64 },
+
+    #[error("the axes of nodes {} and {} point to opposite sides", fin[0], fin[1])]
+    #[diagnostic(
+        code(structure::axes_opposed),
+        help(
+            "turn one of the two round, so that all axes point to the same side of the mesh"
+        )
+    )]
+    AxesOpposed { fin: [usize; 2] },
 
     #[error(
         "fin {}-{} is out of plane by {percent:.4} % of its diameter ({off_mm:.3} mm)",
@@ -176,6 +212,15 @@ pub enum StructureFinding {
     )]
     FinsCross { first: [usize; 2], second: [usize; 2] },
 
+    #[error(
+        "more than {listed} pairs of fins cut through each other; no more are listed"
+    )]
+    #[diagnostic(
+        code(structure::fins_cross_often),
+        help("the depth is far too large for this mesh, or nodes are far out of place")
+    )]
+    FinsCrossOften { listed: usize },
+
     #[error("strip {strip} steps from node {} to node {}, where no fin is", step[0], step[1])]
     #[diagnostic(
         code(structure::strip_without_fin),
@@ -190,13 +235,6 @@ pub enum StructureFinding {
     )]
     FinNotOnOneStrip { fin: [usize; 2], count: usize },
 
-    #[error("strip {strip} meets itself at node {node}")]
-    #[diagnostic(
-        code(structure::strip_meets_itself),
-        help("a strip that crosses itself cannot be put together; split it")
-    )]
-    StripMeetsItself { strip: usize, node: usize },
-
     #[error(
         "strip {strip} would meet itself at node {meets}; it is split at node {node}"
     )]
@@ -208,6 +246,11 @@ pub enum StructureFinding {
     StripSplit { strip: usize, meets: usize, node: usize },
 }
 
+/// The place of an entry in its list; nothing for a list as a whole.
+fn ordinal(index: Option<usize>) -> String {
+    index.map(|index| format!(" {index}")).unwrap_or_default()
+}
+
 /// What is wrong with a face.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[allow(missing_docs, reason = "the messages say it")]
@@ -216,7 +259,7 @@ pub enum FaceFault {
     TooFewCorners { count: usize },
     #[error("comes to node {node} twice")]
     RepeatedNode { node: usize },
-    #[error("has an area of {area_mm2} mm²")]
+    #[error("has an area of {} mm²", short(*area_mm2))]
     NoArea { area_mm2: f64 },
 }
 
@@ -225,11 +268,17 @@ impl Located for StructureFinding {
         match *self {
             Self::Empty { .. }
             | Self::CountMismatch { .. }
-            | Self::AxesFromNormals { .. } => Place::default(),
-            Self::IndexOutOfRange { what: "face", index, .. } => Place::faces([index]),
-            Self::IndexOutOfRange { what: "strip", index, .. } => Place::strip(index),
+            | Self::FinsCrossOften { .. } => Place::default(),
+            Self::IndexOutOfRange { what: "face", index: Some(index), .. } => {
+                Place::faces([index])
+            }
+            Self::IndexOutOfRange { what: "strip", index: Some(index), .. } => {
+                Place::strip(index)
+            }
             Self::IndexOutOfRange { .. } => Place::default(),
             Self::NotFinite { node, .. }
+            | Self::TooLarge { node, .. }
+            | Self::NonManifoldNode { node, .. }
             | Self::ZeroAxis { node }
             | Self::NoDepth { node, .. }
             | Self::Disconnected { node, .. }
@@ -238,6 +287,7 @@ impl Located for StructureFinding {
                 Place::faces([face])
             }
             Self::DuplicateFace { first, second }
+            | Self::NotOrientable { first, second }
             | Self::FaceOrientation { first, second } => Place::faces([first, second]),
             Self::AxisAlongFin { node, fin, .. } => Place::fins([fin]).at(node),
             Self::NonManifoldEdge { fin, .. }
@@ -246,13 +296,13 @@ impl Located for StructureFinding {
             | Self::FinNotPlanar { fin, .. }
             | Self::FinWarped { fin, .. }
             | Self::AxesCrossInFin { fin, .. }
+            | Self::AxesOpposed { fin }
             | Self::FinNotOnOneStrip { fin, .. } => Place::fins([fin]),
             Self::FinsCross { first, second } => Place::fins([first, second]),
             Self::StripWithoutFin { strip, step } => {
                 Place::strip(strip).at(step[0]).at(step[1])
             }
-            Self::StripMeetsItself { strip, node }
-            | Self::StripSplit { strip, node, .. } => Place::strip(strip).at(node),
+            Self::StripSplit { strip, node, .. } => Place::strip(strip).at(node),
         }
     }
 }

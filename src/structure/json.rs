@@ -1,58 +1,27 @@
 //! Structures as JSON (contract §2).
 
 use crate::geometry::{Point3, Vector3};
-use crate::structure::{AxisRule, Draft, Structure};
+use crate::structure::{AxisRule, Draft, ReadError, ReadNote, Structure};
 use crate::units::Unit;
-use miette::Diagnostic;
+use serde::de::{Deserializer, SeqAccess, Visitor};
 use serde::{Deserialize, Serialize};
-use thiserror::Error;
+use serde_json::Value;
+use std::fmt;
 
-/// Why a file is no structure at all.
-#[derive(Debug, Clone, PartialEq, Eq, Error, Diagnostic)]
-#[allow(missing_docs, reason = "the messages say it")]
-pub enum ReadError {
-    #[error("line {line}, column {column}: {message}")]
-    #[diagnostic(
-        code(read::bad_json),
-        help(
-            "the format is described in docs/structure.md; `finwright example write vault` \
-              gives a sample"
-        )
-    )]
-    BadJson { line: usize, column: usize, message: String },
-
-    #[error("the file says format \"{found}\", version {version}")]
-    #[diagnostic(
-        code(read::other_format),
-        help("\"finwright-structure\" version 1 can be read here")
-    )]
-    OtherFormat { found: String, version: u64 },
-
-    #[error("line {line}: {message}")]
-    #[diagnostic(
-        code(read::bad_obj),
-        help("export the mesh again as plain OBJ with `v`, `vn` and `f` lines")
-    )]
-    BadObj { line: usize, message: String },
-
-    #[error("line {line}: node {node} has two different axes")]
-    #[diagnostic(
-        code(read::conflicting_axes),
-        help("every corner of a vertex must name the same `vn`; or use `--axes normal`")
-    )]
-    ConflictingAxes { line: usize, node: usize },
-
-    #[error("{missing} of {nodes} nodes have no axis, the first is node {node}")]
-    #[diagnostic(
-        code(read::missing_axes),
-        help("give every corner a `vn`, or use `--axes normal`")
-    )]
-    MissingAxes { missing: usize, nodes: usize, node: usize },
-
-    #[error("the depth lists {count} numbers for {nodes} nodes")]
-    #[diagnostic(code(read::depth_count), help("give one number, or one per node"))]
-    DepthCount { count: usize, nodes: usize },
-}
+/// The keys of a structure (contract §2).
+const KEYS: [&str; 11] = [
+    "format",
+    "version",
+    "name",
+    "units",
+    "positions",
+    "axes",
+    "faces",
+    "depth",
+    "fins",
+    "strips",
+    "fixed",
+];
 
 #[derive(Deserialize, Serialize)]
 struct File {
@@ -61,13 +30,13 @@ struct File {
     #[serde(default)]
     name: String,
     units: Unit,
-    positions: Vec<[f64; 3]>,
-    axes: Vec<[f64; 3]>,
+    positions: Vec<Row<f64, 3>>,
+    axes: Vec<Row<f64, 3>>,
     #[serde(default)]
     faces: Vec<Vec<usize>>,
     depth: Depth,
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    fins: Option<Vec<[usize; 2]>>,
+    fins: Option<Vec<Row<usize, 2>>>,
     #[serde(default, skip_serializing_if = "Option::is_none")]
     strips: Option<Vec<Vec<usize>>>,
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -80,11 +49,70 @@ struct Depth {
     above: Reach,
 }
 
-#[derive(Deserialize, Serialize)]
+/// `N` numbers; another count is an error that says so.
+#[derive(Clone, Deserialize, Serialize)]
+#[serde(try_from = "Vec<T>", into = "Vec<T>")]
+#[serde(bound(deserialize = "T: Deserialize<'de>", serialize = "T: Clone + Serialize"))]
+struct Row<T, const N: usize>([T; N]);
+
+impl<T, const N: usize> TryFrom<Vec<T>> for Row<T, N> {
+    type Error = String;
+
+    fn try_from(list: Vec<T>) -> Result<Self, String> {
+        let count = list.len();
+        let row = <[T; N]>::try_from(list);
+        row.map(Self).map_err(|_| format!("{count} numbers where {N} are needed"))
+    }
+}
+
+impl<T, const N: usize> From<Row<T, N>> for Vec<T> {
+    fn from(row: Row<T, N>) -> Self {
+        row.0.into()
+    }
+}
+
+#[derive(Serialize)]
 #[serde(untagged)]
 enum Reach {
     Same(f64),
     Each(Vec<f64>),
+}
+
+impl<'de> Deserialize<'de> for Reach {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        deserializer.deserialize_any(ReachVisitor)
+    }
+}
+
+/// By hand, for serde's own reader of two kinds does not say what is wrong, nor where.
+struct ReachVisitor;
+
+impl<'de> Visitor<'de> for ReachVisitor {
+    type Value = Reach;
+
+    fn expecting(&self, formatter: &mut fmt::Formatter) -> fmt::Result {
+        formatter.write_str("a number, or a list of one number per node")
+    }
+
+    fn visit_f64<E>(self, depth: f64) -> Result<Reach, E> {
+        Ok(Reach::Same(depth))
+    }
+
+    fn visit_i64<E>(self, depth: i64) -> Result<Reach, E> {
+        Ok(Reach::Same(depth as f64))
+    }
+
+    fn visit_u64<E>(self, depth: u64) -> Result<Reach, E> {
+        Ok(Reach::Same(depth as f64))
+    }
+
+    fn visit_seq<A: SeqAccess<'de>>(self, mut list: A) -> Result<Reach, A::Error> {
+        let mut depths = Vec::new();
+        while let Some(depth) = list.next_element()? {
+            depths.push(depth);
+        }
+        Ok(Reach::Each(depths))
+    }
 }
 
 impl Reach {
@@ -114,36 +142,95 @@ impl Reach {
 ///
 /// # Errors
 /// [`ReadError`] if the text is no structure of this format.
-pub fn read_json(text: &str, axes: AxisRule) -> Result<Draft, ReadError> {
-    let bad = |error: serde_json::Error| ReadError::BadJson {
-        line: error.line(),
-        column: error.column(),
-        message: error.to_string().split(" at line ").next().unwrap_or_default().into(),
-    };
-    let value: serde_json::Value = serde_json::from_str(text).map_err(bad)?;
-    let found = value["format"].as_str().unwrap_or("(none)");
-    let version = value["version"].as_u64().unwrap_or(0);
-    if found != "finwright-structure" || version != 1 {
-        return Err(ReadError::OtherFormat { found: found.into(), version });
+pub fn read_json(
+    text: &str,
+    axes: AxisRule,
+) -> Result<(Draft, Vec<ReadNote>), ReadError> {
+    if text.trim().is_empty() {
+        return Err(ReadError::EmptyFile);
     }
+    let value: Value = serde_json::from_str(text).map_err(|error| bad(&error, &[]))?;
+    let shown = |key: &str| value.get(key).map_or("(nothing)".into(), excerpt);
+    let (format, version) = (shown("format"), shown("version"));
+    if format != "\"finwright-structure\"" || version != "1" {
+        return Err(ReadError::OtherFormat { format, version });
+    }
+    let notes = unknown_keys(&value);
     // Read from the text again: only then do errors have a line.
-    let file: File = serde_json::from_str(text).map_err(bad)?;
+    let file: File = serde_json::from_str(text).map_err(|error| bad(&error, &notes))?;
     let nodes = file.positions.len();
     let mut draft = Draft {
         name: file.name,
-        positions: file.positions.into_iter().map(Point3::from).collect(),
-        axes: file.axes.into_iter().map(Vector3::from).collect(),
+        positions: file.positions.into_iter().map(|row| Point3::from(row.0)).collect(),
+        axes: file.axes.into_iter().map(|row| Vector3::from(row.0)).collect(),
         faces: file.faces,
         below: file.depth.below.per_node(nodes)?,
         above: file.depth.above.per_node(nodes)?,
-        fins: file.fins,
+        fins: file.fins.map(|fins| fins.into_iter().map(|row| row.0).collect()),
         strips: file.strips,
         fixed: file.fixed,
     };
     if let Some(axes) = axes.axes(&draft.positions, &draft.faces) {
         draft.axes = axes;
     }
-    Ok(draft.scaled(file.units.millimetres()))
+    Ok((draft.scaled(file.units.millimetres()), notes))
+}
+
+/// The beginning of a value as JSON.
+fn excerpt(value: &Value) -> String {
+    const SHOWN: usize = 40;
+    let text = value.to_string();
+    let cut = text.char_indices().nth(SHOWN).map(|(at, _)| at);
+    cut.map_or(text.clone(), |at| format!("{}...", &text[..at]))
+}
+
+/// Keys that were not read. One that is nearly a key which is not there was meant as it.
+fn unknown_keys(value: &Value) -> Vec<ReadNote> {
+    let found = value.as_object().into_iter().flatten().map(|(key, _)| key.as_str());
+    let unknown = found.filter(|key| !KEYS.contains(key));
+    let missing = KEYS.iter().filter(|key| value.get(key).is_none());
+    unknown
+        .map(|found| {
+            let off = |key: &str| strsim::damerau_levenshtein(&found.to_lowercase(), key);
+            let near = |key: &&&str| off(key) <= (key.len() / 3).max(1);
+            match missing.clone().filter(near).min_by_key(|key| off(key)) {
+                Some(key) => ReadNote::MisspeltKey {
+                    found: found.to_owned(),
+                    nearest: (*key).to_owned(),
+                },
+                None => ReadNote::UnknownKey { found: found.to_owned() },
+            }
+        })
+        .collect()
+}
+
+/// serde's message in words for people who do not know Rust.
+fn bad(error: &serde_json::Error, notes: &[ReadNote]) -> ReadError {
+    const PLAIN: [(&str, &str); 10] = [
+        ("a sequence", "a list [...]"),
+        ("sequence", "a list"),
+        ("a map", "an object {...}"),
+        ("expected map", "expected an object {...}"),
+        ("expected usize", "expected a whole number from 0"),
+        ("expected f64", "expected a number"),
+        ("struct File", "an object {...}"),
+        ("struct Depth", "{\"below\": ..., \"above\": ...}"),
+        ("floating point", "number"),
+        ("EOF while parsing", "the file ends within"),
+    ];
+    let message = error.to_string();
+    let mut message = message.split(" at line ").next().unwrap_or_default().to_owned();
+    if let Some((jargon, plain)) = PLAIN.iter().find(|pair| message.contains(pair.0)) {
+        message = message.replace(jargon, plain);
+    }
+    for note in notes {
+        if let ReadNote::MisspeltKey { found, nearest } = note
+            && message.contains(&format!("`{nearest}`"))
+        {
+            message += &format!(" (there is \"{found}\")");
+        }
+    }
+    ReadError::BadJson { line: error.line(), column: error.column(), message }
 }
 
 /// Writes a structure in millimetres, with its fins and strips spelled out.
@@ -158,14 +245,14 @@ pub fn write_json(structure: &Structure) -> String {
         version: 1,
         name: structure.name().into(),
         units: Unit::Millimetre,
-        positions: nodes.iter().map(|node| node.position.coords.into()).collect(),
-        axes: nodes.iter().map(|node| node.axis.into()).collect(),
+        positions: nodes.iter().map(|node| Row(node.position.coords.into())).collect(),
+        axes: nodes.iter().map(|node| Row(node.axis.into())).collect(),
         faces: structure.faces().to_vec(),
         depth: Depth {
             below: Reach::shortest(nodes.iter().map(|node| node.below).collect()),
             above: Reach::shortest(nodes.iter().map(|node| node.above).collect()),
         },
-        fins: Some(structure.fins().to_vec()),
+        fins: Some(structure.fins().iter().copied().map(Row).collect()),
         strips: Some(strips.collect()),
         fixed: Some(structure.fixed().to_vec()),
     };
@@ -177,7 +264,7 @@ fn rows(file: &File) -> String {
     let value = serde_json::to_value(file).unwrap_or_default();
     let entries = value.as_object().into_iter().flatten().map(|(key, value)| {
         let text = match value {
-            serde_json::Value::Array(list) if list.iter().any(|item| item.is_array()) => {
+            Value::Array(list) if list.iter().any(|item| item.is_array()) => {
                 let items: Vec<String> =
                     list.iter().map(|item| format!("    {item}")).collect();
                 format!("[\n{}\n  ]", items.join(",\n"))

@@ -14,15 +14,18 @@ mod json;
 mod meeting;
 mod node;
 mod obj;
+mod read;
 mod strips;
+mod surface;
 
 pub use check::planarity;
-pub use crossing::FinGrid;
+pub use crossing::FinTree;
 pub use draft::{Draft, area_vector, face_edges};
 pub use finding::{FaceFault, StructureFinding};
-pub use json::{ReadError, read_json, write_json};
+pub use json::{read_json, write_json};
 pub use node::{Arm, Node};
 pub use obj::{AxisRule, ObjOptions, read_obj, write_obj};
+pub use read::{ReadError, ReadNote};
 pub use strips::Strip;
 
 use crate::diagnostic::{Finding, passes};

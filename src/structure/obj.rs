@@ -6,8 +6,7 @@
 
 use crate::geometry::{Point3, Vector3};
 use crate::structure::draft::{Draft, area_vector};
-use crate::structure::finding::StructureFinding;
-use crate::structure::json::ReadError;
+use crate::structure::read::{ReadError, ReadNote};
 use crate::tolerance::SAME_AXIS;
 use crate::units::Unit;
 
@@ -40,6 +39,8 @@ struct Mesh {
     normals: Vec<Vector3>,
     faces: Vec<Vec<usize>>,
     axes: Vec<Option<Vector3>>,
+    /// Lines with curves, lines and points.
+    other: Vec<usize>,
 }
 
 /// Reads a mesh as a structure in millimetres, each side of a fin 0.35 of the median
@@ -50,18 +51,29 @@ struct Mesh {
 pub fn read_obj(
     text: &str,
     options: &ObjOptions,
-) -> Result<(Draft, Vec<StructureFinding>), ReadError> {
+) -> Result<(Draft, Vec<ReadNote>), ReadError> {
+    if text.trim().is_empty() {
+        return Err(ReadError::EmptyFile);
+    }
     let mut mesh = Mesh::default();
+    // Line ends of old Macs are alone on a line.
+    let text = if text.contains('\n') { text } else { &text.replace('\r', "\n") };
     for (number, line) in logical_lines(text) {
         mesh.take(number, &line, options.axes)?;
     }
-    let (axes, findings) = axes(&mesh, options.axes)?;
+    if mesh.faces.is_empty() {
+        let (vertices, other) = (mesh.positions.len(), mesh.other.len());
+        return Err(ReadError::NoFaces { vertices, other });
+    }
+    let (axes, mut notes) = axes(&mesh, options.axes)?;
+    let count = mesh.other.len();
+    notes.extend(mesh.other.first().map(|&line| ReadNote::NotAFace { count, line }));
     let draft =
         Draft { positions: mesh.positions, axes, faces: mesh.faces, ..Draft::default() };
     let mut draft = draft.scaled(options.unit.millimetres());
     let depth = 0.35 * median_fin_length(&draft);
     draft = draft.with_depth(depth, depth);
-    Ok((draft, findings))
+    Ok((draft, notes))
 }
 
 /// Lines without comments, `\` at the end joining the next, numbered from 1.
@@ -86,6 +98,7 @@ impl Mesh {
             Some("v") => self.positions.push(Point3::from(vector(line, words)?)),
             Some("vn") => self.normals.push(vector(line, words)?),
             Some("f") => self.face(line, words, rule)?,
+            Some("l" | "p" | "curv" | "curv2" | "surf") => self.other.push(line),
             _ => {}
         }
         Ok(())
@@ -124,13 +137,24 @@ fn vector<'a>(
     mut words: impl Iterator<Item = &'a str>,
 ) -> Result<Vector3, ReadError> {
     let mut number = || {
-        let word = words.next().unwrap_or("nothing");
-        word.parse::<f64>().map_err(|_| ReadError::BadObj {
-            line,
-            message: format!("three numbers are needed, found {word:?}"),
+        let Some(word) = words.next() else {
+            let message = "three numbers are needed, found fewer".to_owned();
+            return Err(ReadError::BadObj { line, message });
+        };
+        word.parse::<f64>().map_err(|_| {
+            let comma = if word.contains(',') { " (write 1.5, not 1,5)" } else { "" };
+            let message = format!("{} is no number{comma}", quoted(word));
+            ReadError::BadObj { line, message }
         })
     };
     Ok(Vector3::new(number()?, number()?, number()?))
+}
+
+/// The beginning of a word that could not be read.
+fn quoted(word: &str) -> String {
+    const SHOWN: usize = 20;
+    let more = if word.chars().nth(SHOWN).is_some() { "..." } else { "" };
+    format!("{:?}{more}", word.chars().take(SHOWN).collect::<String>())
 }
 
 /// An index as OBJ counts: from 1, or backward from the newest if negative.
@@ -138,10 +162,10 @@ fn index(line: usize, word: Option<&str>, count: usize) -> Result<usize, ReadErr
     let word = word.unwrap_or_default();
     let bad = |message: String| ReadError::BadObj { line, message };
     let number: i64 =
-        word.parse().map_err(|_| bad(format!("{word:?} is no vertex number")))?;
+        word.parse().map_err(|_| bad(format!("{} is no vertex number", quoted(word))))?;
     let from_start = if number < 0 { count as i64 + number } else { number - 1 };
     usize::try_from(from_start).ok().filter(|&index| index < count).ok_or_else(|| {
-        bad(format!("number {number} is used, but {count} were given so far"))
+        bad(format!("number {number} is used, but only {count} were given before"))
     })
 }
 
@@ -151,17 +175,14 @@ fn parallel(a: Vector3, b: Vector3) -> bool {
     a.dot(&b) > 0.0 && a.cross(&b).norm() <= SAME_AXIS * lengths || a == b
 }
 
-fn axes(
-    mesh: &Mesh,
-    rule: AxisRule,
-) -> Result<(Vec<Vector3>, Vec<StructureFinding>), ReadError> {
+fn axes(mesh: &Mesh, rule: AxisRule) -> Result<(Vec<Vector3>, Vec<ReadNote>), ReadError> {
     let nodes = mesh.positions.len();
     match rule.axes(&mesh.positions, &mesh.faces) {
         Some(axes) => Ok((axes, Vec::new())),
         None if mesh.axes.iter().any(Option::is_some) => given_axes(mesh),
         None => Ok((
             normals(&mesh.positions, &mesh.faces),
-            vec![StructureFinding::AxesFromNormals { nodes }],
+            vec![ReadNote::AxesFromNormals { nodes }],
         )),
     }
 }
@@ -183,7 +204,7 @@ impl AxisRule {
 }
 
 /// The file's axes; every node of a face must have one.
-fn given_axes(mesh: &Mesh) -> Result<(Vec<Vector3>, Vec<StructureFinding>), ReadError> {
+fn given_axes(mesh: &Mesh) -> Result<(Vec<Vector3>, Vec<ReadNote>), ReadError> {
     let nodes = mesh.positions.len();
     let axis = |node: usize| mesh.axes.get(node).copied().flatten();
     let corners: std::collections::BTreeSet<usize> =
@@ -220,6 +241,8 @@ fn median_fin_length(draft: &Draft) -> f64 {
         .fin_pairs()
         .iter()
         .map(|&[i, j]| (draft.positions[i] - draft.positions[j]).norm())
+        // What is no number is found later, and once.
+        .filter(|length| length.is_finite())
         .collect();
     lengths.sort_by(f64::total_cmp);
     lengths.get(lengths.len() / 2).copied().unwrap_or(1.0)

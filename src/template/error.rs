@@ -1,5 +1,6 @@
 //! What can be wrong with a template.
 
+use crate::diagnostic::short;
 use miette::Diagnostic;
 use std::fmt;
 use thiserror::Error;
@@ -8,14 +9,14 @@ use thiserror::Error;
 #[derive(Debug, Clone, PartialEq, Error, Diagnostic)]
 #[allow(missing_docs, reason = "the messages say what the fields are")]
 pub enum Fault {
-    #[error("line {line}: {message}")]
+    #[error("{}{message}", at(*line))]
     #[diagnostic(
         code(template::bad_toml),
         help("compare with `finwright template show pmma-cast-3`")
     )]
     BadToml { line: usize, message: String },
 
-    #[error("line {line}: there is no key \"{found}\" in [{table}]")]
+    #[error("{}there is no key \"{found}\" in {table}", at(*line))]
     #[diagnostic(
         code(template::unknown_key),
         help("the nearest known key is \"{nearest}\"; templates/README.md lists all")
@@ -31,14 +32,14 @@ pub enum Fault {
     )]
     MissingKey { table: String, key: String },
 
-    #[error("line {line}: {key} is {found}, but {wanted} is needed")]
+    #[error("{}{key} is {found}, but {wanted} is needed", at(*line))]
     #[diagnostic(
         code(template::wrong_type),
         help("write the value as in the other templates")
     )]
     WrongType { line: usize, key: String, found: String, wanted: &'static str },
 
-    #[error("line {line}: {key} is {value}, outside {least} to {most}")]
+    #[error("{}{key} is {}, outside {least} to {most}", at(*line), short(*value))]
     #[diagnostic(
         code(template::out_of_range),
         help("check the unit at the end of the key: _mm, _deg, _percent, ...")
@@ -58,6 +59,11 @@ pub enum Fault {
         )
     )]
     UnknownName { found: String, nearest: String },
+}
+
+/// Where something stands; nothing if the line could not be found (0).
+fn at(line: usize) -> String {
+    if line == 0 { String::new() } else { format!("line {line}: ") }
 }
 
 /// Everything wrong with a template.

@@ -1,5 +1,6 @@
 //! Every key a template may have: its kind, whether it is needed, and its range.
 
+use crate::diagnostic::short;
 use crate::template::Template;
 use crate::template::error::Fault;
 use toml::{Table, Value};
@@ -103,7 +104,7 @@ pub(super) fn all() -> impl Iterator<Item = (&'static str, &'static str)> {
 }
 
 /// The known name most like the one found.
-pub(super) fn nearest<'a>(
+pub(crate) fn nearest<'a>(
     found: &str,
     known: impl IntoIterator<Item = &'a str>,
 ) -> String {
@@ -155,10 +156,10 @@ pub(super) fn faults(file: &Table, source: &str) -> Vec<Fault> {
                 });
             }
             None => {}
-            Some(_) => faults.push(Fault::WrongType {
+            Some(found) => faults.push(Fault::WrongType {
                 line: line(source, "", table),
                 key: table.to_string(),
-                found: "something else".to_owned(),
+                found: found.type_str().to_owned(),
                 wanted: if *table == "sheet" { "[[sheet]]" } else { "a [table]" },
             }),
         }
@@ -175,7 +176,7 @@ fn table_faults(table: &str, found: &Table, keys: &[Key], source: &str) -> Vec<F
             }
             None => faults.push(Fault::UnknownKey {
                 line: line(source, table, name),
-                table: table.to_owned(),
+                table: format!("[{table}]"),
                 found: name.clone(),
                 nearest: nearest(name, keys.iter().map(|key| key.name)),
             }),
@@ -284,6 +285,13 @@ pub(super) fn contradictions(template: &Template) -> Vec<Fault> {
     }
     if template.sheet.is_empty() {
         messages.push("there is no [[sheet]]".to_owned());
+    }
+    let (gap, kerf) = (material.thickness_mm + material.clearance_mm, material.kerf_mm);
+    if gap <= kerf {
+        messages.push(format!(
+            "thickness_mm and clearance_mm make slits of {} mm, no wider than kerf_mm {kerf}",
+            short(gap)
+        ));
     }
     messages.into_iter().map(|message| Fault::Contradiction { message }).collect()
 }

@@ -8,6 +8,7 @@ mod error;
 mod keys;
 
 pub use error::{Fault, TemplateErrors};
+pub(crate) use keys::nearest;
 
 use serde::Deserialize;
 
@@ -208,7 +209,7 @@ pub fn read(source: &str, name: &str) -> Result<Template, TemplateErrors> {
 
 /// The error for a template that is not there, with the nearest name that is.
 pub fn unknown_name(name: &str) -> TemplateErrors {
-    let nearest = keys::nearest(name, names());
+    let nearest = nearest(name, names());
     let fault = Fault::UnknownName { found: name.to_owned(), nearest };
     TemplateErrors { name: name.to_owned(), faults: vec![fault] }
 }
