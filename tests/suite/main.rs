@@ -1,10 +1,16 @@
 //! What must hold for the whole: the order of modules, laws, variations of each structure,
-//! golden drawings, the command line.
+//! golden drawings, the command line, and what is said about bad input.
+
+#![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
 mod architecture;
+mod diagnostics;
 mod golden;
 mod laws;
 mod plane;
+mod refusals;
+mod regressions;
+mod spoilt;
 mod structures;
 mod transcripts;
 mod variations;

@@ -1,0 +1,64 @@
+//! What is refused leaves nothing half-written, and ends with the code of contract §1.
+
+use std::path::Path;
+use std::process::Command;
+
+fn make(input: &str, output: &Path) -> (Option<i32>, String) {
+    let output = Command::new(env!("CARGO_BIN_EXE_finwright"))
+        .args(["make", input, "--effort", "quick", "--json", "-o"])
+        .arg(output)
+        .current_dir(env!("CARGO_MANIFEST_DIR"))
+        .output()
+        .unwrap();
+    (output.status.code(), String::from_utf8(output.stdout).unwrap())
+}
+
+fn entries(folder: &Path) -> Vec<String> {
+    let mut names: Vec<String> = std::fs::read_dir(folder)
+        .unwrap()
+        .map(|entry| entry.unwrap().file_name().to_string_lossy().into_owned())
+        .collect();
+    names.sort();
+    names
+}
+
+#[test]
+fn a_file_that_cannot_be_read_writes_nothing() {
+    let place = tempfile::tempdir().unwrap();
+    let (code, printed) =
+        make("fixtures/bad/read/bad_json.json", &place.path().join("job"));
+    assert_eq!((code, printed.as_str()), (Some(1), ""));
+    assert_eq!(entries(place.path()), Vec::<String>::new());
+}
+
+#[test]
+fn a_draft_that_is_no_structure_writes_nothing_and_says_so_in_json() {
+    let place = tempfile::tempdir().unwrap();
+    let (code, printed) =
+        make("fixtures/bad/structure/zero_axis.json", &place.path().join("job"));
+    assert_eq!(code, Some(3));
+    let job: serde_json::Value = serde_json::from_str(&printed).unwrap();
+    assert_eq!(job["findings"][0]["code"], "structure::zero_axis");
+    assert_eq!(job["findings"][0]["place"]["nodes"][0], 4);
+    assert_eq!(entries(place.path()), Vec::<String>::new());
+}
+
+#[test]
+fn a_structure_that_cannot_be_cut_gets_stamped_pictures_only() {
+    let place = tempfile::tempdir().unwrap();
+    let job = place.path().join("job");
+    let (code, _) = make("fixtures/bad/parts/web_too_thin.json", &job);
+    assert_eq!(code, Some(3));
+    assert_eq!(entries(place.path()), ["job"]);
+    assert_eq!(entries(&job), ["job.json", "parts.csv", "preview", "structure.json"]);
+    assert!(entries(&job.join("preview")).iter().all(|name| name.ends_with(".png")));
+}
+
+#[test]
+fn a_folder_of_somebody_else_is_refused_before_any_work() {
+    let place = tempfile::tempdir().unwrap();
+    std::fs::write(place.path().join("thesis.txt"), "years of work").unwrap();
+    let (code, _) = make("vault", place.path());
+    assert_eq!(code, Some(1));
+    assert_eq!(entries(place.path()), ["thesis.txt"]);
+}
