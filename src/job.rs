@@ -65,6 +65,10 @@ pub fn run(order: Order, watch: &mut dyn Watch) -> Result<Job, Interrupted> {
     let name = structure.name().to_owned();
     let kerf = Kerf::from_width_mm(template.material.kerf_mm);
     let fit = fit(template);
+    if let Some(finding) = parts::too_small(&structure, &fit) {
+        job.findings.push(finding.into());
+        return Ok(Job { structure: Some(structure), ..job });
+    }
     let turns = turns(template);
     let stock = &job.stock;
     let fits = |outline: &[Point2]| {
@@ -81,11 +85,7 @@ pub fn run(order: Order, watch: &mut dyn Watch) -> Result<Job, Interrupted> {
         return Err(Interrupted);
     }
     let shapes: Vec<Shape> = job.parts.iter().map(|p| shape(p, kerf, template)).collect();
-    match nest::nest(&shapes, &job.stock, &order.effort, watch) {
-        Ok(layout) => job.layout = layout,
-        Err(NestError::Stopped) => return Err(Interrupted),
-        Err(error) => job.findings.push(error.into()),
-    }
+    lay(&mut job, &shapes, &order.effort, watch)?;
     watch.progress("sheets", 0, 1);
     let frame = frame(template, name, job.accepted_flexible.as_deref());
     job.sheets = sheets::sheets(&Laying {
@@ -96,6 +96,25 @@ pub fn run(order: Order, watch: &mut dyn Watch) -> Result<Job, Interrupted> {
         frame: template.output.frame.then_some(&frame),
     });
     Ok(job)
+}
+
+/// Finds the parts their places, or says why there are none.
+fn lay(
+    job: &mut Job,
+    shapes: &[Shape],
+    effort: &Effort,
+    watch: &mut dyn Watch,
+) -> Result<(), Interrupted> {
+    // Parts that cross themselves cannot lie soundly, and that was said of them already.
+    let crossing =
+        job.findings.iter().any(|found| found.code == "parts::outline_crosses_itself");
+    match nest::nest(shapes, &job.stock, effort, watch) {
+        Ok(layout) => job.layout = layout,
+        Err(NestError::Stopped) => return Err(Interrupted),
+        Err(NestError::Unsound { .. }) if crossing => {}
+        Err(error) => job.findings.push(error.into()),
+    }
+    Ok(())
 }
 
 /// A part as the nester sees it: the line that will be drawn.

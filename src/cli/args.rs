@@ -175,7 +175,7 @@ pub enum TemplateAction {
     },
     /// Read a template and say what is wrong with it
     Check {
-        /// The .toml file
+        /// The .toml file, or the name of an embedded template
         file: PathBuf,
     },
 }

@@ -5,7 +5,7 @@ use crate::cli::args::{
 };
 use crate::cli::input::{self, Input, InputError};
 use crate::cli::jobdir::{self, JobDirError, JobFile};
-use crate::cli::show::{Terminal, Voice};
+use crate::cli::show::{self, Terminal, Voice};
 use crate::design::examples;
 use crate::diagnostic::{Finding, passes};
 use crate::export;
@@ -273,11 +273,14 @@ fn check(args: &InputArgs, voice: Voice) -> Result<End, Failure> {
     let findings = &ordered.job.findings;
     voice.findings(findings);
     let fine = passes(findings);
+    if let Some(structure) = &ordered.job.structure {
+        voice.say(&show::about(structure));
+    }
     if args.json {
         print(&format!("{}\n", check_json(findings)));
     }
     voice.say(match (fine, findings.is_empty()) {
-        (true, true) => "nothing found: it can be cut",
+        (true, true) => "nothing wrong was found: it can be cut",
         (true, false) => "it can be cut",
         (false, _) => "it cannot be cut as it is",
     });
@@ -305,10 +308,7 @@ fn templates(action: TemplateAction) -> Result<End, Failure> {
             None => Err(InputError::BadTemplate(template::unknown_name(&name)).into()),
         },
         TemplateAction::Check { file } => {
-            let name =
-                file.file_stem().unwrap_or_default().to_string_lossy().into_owned();
-            let text = input::text_of(&file)?;
-            template::read(&text, &name).map_err(InputError::BadTemplate)?;
+            input::template(&file.to_string_lossy())?;
             let _ = writeln!(std::io::stderr(), "{}: nothing wrong", file.display());
             Ok(End::Done)
         }

@@ -1,6 +1,7 @@
 //! What is said on the terminal: findings, progress, a summary. All of it on stderr.
 
 use crate::diagnostic::{Finding, Severity};
+use crate::structure::Structure;
 use crate::watch::Watch;
 use indicatif::{ProgressBar, ProgressStyle};
 use std::collections::BTreeMap;
@@ -52,6 +53,13 @@ impl Voice {
             whisper(&format!("  {code}: {}", found[0].help));
         }
     }
+}
+
+/// What was read, so that one sees whether it was read as meant.
+pub(super) fn about(structure: &Structure) -> String {
+    let (fins, strips) = (structure.fins().len(), structure.strips().len());
+    let (name, size) = (structure.name(), structure.size_text());
+    format!("{name}: {fins} fins in {strips} strips, {size}")
 }
 
 /// One line on stderr; a closed terminal is no reason to fail.

@@ -8,6 +8,20 @@ use thiserror::Error;
 #[derive(Debug, Clone, PartialEq, Error, Diagnostic)]
 #[allow(missing_docs, reason = "each variant's message says what its fields are")]
 pub enum PartFinding {
+    #[error(
+        "half of the fins are shorter than {} mm, but a slit and the web beside it take {} mm \
+         of a sheet of {} mm; the whole structure is {size}",
+        short(*median_mm), short(2.0 * thickness_mm), short(*thickness_mm)
+    )]
+    #[diagnostic(
+        code(parts::model_too_small),
+        help(
+            "if it was drawn in another unit, say so (an OBJ file is read as mm: try \
+             `--units m --scale 1:50`); else enlarge it (`--scale 10:1`) or use a thinner sheet"
+        )
+    )]
+    ModelTooSmall { median_mm: f64, thickness_mm: f64, size: String },
+
     #[error("{part} would lie over itself when flat; it is split at node {node}")]
     #[diagnostic(
         code(parts::strip_overlaps_itself),
@@ -133,8 +147,8 @@ pub enum PartFinding {
     #[diagnostic(
         code(parts::bend_breaks),
         help(
-            "the sheet takes {limit} times its thickness (`bend.crack`): enlarge the structure \
-             {grow:.1} times, use a sheet of {thinner_mm:.1} mm, or one that folds"
+            "the sheet takes {limit} times its thickness (`bend.crack`): {}",
+            relief(*grow, *thinner_mm)
         )
     )]
     BendBreaks {
@@ -190,6 +204,18 @@ pub enum PartFinding {
     OutlineCrossesItself { part: String, node: usize },
 }
 
+/// What would save a strip from breaking.
+fn relief(grow: f64, thinner_mm: f64) -> String {
+    if thinner_mm < 0.05 {
+        return "its slits leave hardly any length to bend; enlarge the structure"
+            .to_owned();
+    }
+    format!(
+        "enlarge the structure {grow:.1} times, use a sheet of {thinner_mm:.1} mm, or one that \
+         folds"
+    )
+}
+
 impl Located for PartFinding {
     fn place(&self) -> Place {
         match self {
@@ -208,6 +234,7 @@ impl Located for PartFinding {
                 parts: vec![first.clone(), second.clone()],
                 ..Place::nodes([*node])
             },
+            Self::ModelTooSmall { .. } => Place::default(),
             Self::TooManyStrips { node, .. } => Place::nodes([*node]),
             Self::SlitsTooNear { part, fin, .. } | Self::SlitsNear { part, fin, .. } => {
                 Place { parts: vec![part.clone()], ..Place::fins([*fin]) }

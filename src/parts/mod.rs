@@ -53,6 +53,22 @@ pub struct Made {
     pub findings: Vec<PartFinding>,
 }
 
+/// Says that a structure is too small for the sheet, rather than that each of its parts is:
+/// most often its unit was misread.
+pub fn too_small(structure: &Structure, fit: &Fit) -> Option<PartFinding> {
+    let mut lengths: Vec<f64> =
+        structure.fins().iter().map(|&fin| structure.length(fin)).collect();
+    lengths.sort_by(f64::total_cmp);
+    let median_mm = *lengths.get(lengths.len() / 2)?;
+    let thickness_mm = fit.thickness;
+    let size = structure.size_text();
+    (median_mm < 2.0 * thickness_mm).then_some(PartFinding::ModelTooSmall {
+        median_mm,
+        thickness_mm,
+        size,
+    })
+}
+
 /// Makes the parts of a structure whose strips are half-lapped.
 pub fn strips(structure: Structure, making: &Making) -> Made {
     let (flat, mut split) = flat_strips(&structure);

@@ -28,7 +28,7 @@ pub use obj::{AxisRule, ObjOptions, read_obj, write_obj};
 pub use read::{ReadError, ReadNote};
 pub use strips::Strip;
 
-use crate::diagnostic::{Finding, passes};
+use crate::diagnostic::{Finding, passes, short};
 use crate::geometry::{Point3, Vector3};
 use crate::tolerance::Tolerance;
 use std::collections::BTreeMap;
@@ -139,6 +139,24 @@ impl Structure {
     pub fn corners(&self, [i, j]: [usize; 2]) -> [Point3; 4] {
         let (a, b) = (&self.nodes[i], &self.nodes[j]);
         [a.bottom(), b.bottom(), b.top(), a.top()]
+    }
+
+    /// Length of a fin along the base mesh, mm.
+    pub fn length(&self, [i, j]: [usize; 2]) -> f64 {
+        (self.nodes[i].position - self.nodes[j].position).norm()
+    }
+
+    /// Width, depth and height of its nodes, for people: `504 x 308 x 52 mm`.
+    pub fn size_text(&self) -> String {
+        let extent = |k: usize| {
+            let along = || {
+                self.nodes.iter().filter(|n| !n.arms.is_empty()).map(|n| n.position[k])
+            };
+            let high = along().fold(f64::NEG_INFINITY, f64::max);
+            (high - along().fold(f64::INFINITY, f64::min)).max(0.0)
+        };
+        let [x, y, z] = [0, 1, 2].map(|k| short((extent(k) * 10.0).round() / 10.0));
+        format!("{x} x {y} x {z} mm")
     }
 
     /// The same structure with other strips.

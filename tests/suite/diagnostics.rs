@@ -183,10 +183,10 @@ fn written(front: &str, prose: &BTreeMap<String, String>) -> String {
 fn the_document_says_what_is_printed_about_every_code() {
     let path = at("docs/diagnostics.md");
     let doc = fs::read_to_string(&path).unwrap();
-    let mut prose = prose(&doc);
-    prose.retain(|code, _| codes().contains(code));
+    let (codes, mut prose) = (codes(), prose(&doc));
+    prose.retain(|code, _| codes.contains(code));
     let undescribed: Vec<_> =
-        codes().into_iter().filter(|c| !prose.contains_key(c)).collect();
+        codes.iter().filter(|code| !prose.contains_key(*code)).collect();
     assert!(undescribed.is_empty(), "write a `### ` section for {undescribed:?}");
     let silent: Vec<_> = prose.iter().filter(|(_, text)| text.is_empty()).collect();
     assert!(silent.is_empty(), "say what to do: {silent:?}");
