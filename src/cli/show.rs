@@ -4,7 +4,6 @@ use crate::diagnostic::{Finding, Severity};
 use crate::structure::Structure;
 use crate::watch::Watch;
 use indicatif::{ProgressBar, ProgressStyle};
-use std::collections::BTreeMap;
 use std::io::{IsTerminal, Write};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -30,21 +29,25 @@ impl Voice {
         }
     }
 
-    /// Says what was found, worst first, the first few of each kind.
+    /// Says what was found, worst first, then in the order of the stages; the first few of
+    /// each kind.
     pub(super) fn findings(self, findings: &[Finding]) {
-        let mut kinds: BTreeMap<(std::cmp::Reverse<Severity>, &str), Vec<&Finding>> =
-            BTreeMap::new();
+        let mut kinds: Vec<Vec<&Finding>> = Vec::new();
         for finding in findings {
-            let kind = (std::cmp::Reverse(finding.severity), finding.code.as_str());
-            kinds.entry(kind).or_default().push(finding);
+            match kinds.iter_mut().find(|kind| kind[0].code == finding.code) {
+                Some(kind) => kind.push(finding),
+                None => kinds.push(vec![finding]),
+            }
         }
-        for ((severity, code), found) in kinds {
-            if self.quiet && severity.0 != Severity::Error {
+        kinds.sort_by_key(|kind| std::cmp::Reverse(kind[0].severity));
+        for found in kinds {
+            let (severity, code) = (found[0].severity, &found[0].code);
+            if self.quiet && severity != Severity::Error {
                 continue;
             }
             let shown = if self.verbose { found.len() } else { FEW.min(found.len()) };
             for finding in &found[..shown] {
-                whisper(&format!("{}: {}", title(severity.0), finding.message));
+                whisper(&format!("{}: {}", title(severity), finding.message));
             }
             if found.len() > shown {
                 let more = found.len() - shown;

@@ -59,7 +59,7 @@ pub fn too_small(structure: &Structure, fit: &Fit) -> Option<PartFinding> {
     let mut lengths: Vec<f64> =
         structure.fins().iter().map(|&fin| structure.length(fin)).collect();
     lengths.sort_by(f64::total_cmp);
-    let median_mm = *lengths.get(lengths.len() / 2)?;
+    let median_mm = (lengths.get(lengths.len() / 2)? * 100.0).round() / 100.0;
     let thickness_mm = fit.thickness;
     let size = structure.size_text();
     (median_mm < 2.0 * thickness_mm).then_some(PartFinding::ModelTooSmall {
