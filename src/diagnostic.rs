@@ -68,6 +68,12 @@ impl Place {
         Self { parts: vec![part.into()], ..Self::default() }
     }
 
+    /// In this line of the input file.
+    pub fn line(line: usize) -> Self {
+        // 0 stands for a line that could not be found.
+        Self { line: (line > 0).then_some(line), ..Self::default() }
+    }
+
     /// The same place, narrowed to a node.
     #[must_use]
     pub fn at(mut self, node: usize) -> Self {
@@ -99,6 +105,14 @@ pub struct Finding {
 
 impl<F: Diagnostic + Located> From<F> for Finding {
     fn from(fact: F) -> Self {
+        let place = fact.place();
+        Self::new(&fact, place)
+    }
+}
+
+impl Finding {
+    /// A fact at a place.
+    pub fn new(fact: &dyn Diagnostic, place: Place) -> Self {
         let text = |part: Option<Box<dyn std::fmt::Display + '_>>| {
             part.map(|part| part.to_string()).unwrap_or_default()
         };
@@ -111,7 +125,7 @@ impl<F: Diagnostic + Located> From<F> for Finding {
             code: text(fact.code()),
             message: fact.to_string(),
             help: text(fact.help()),
-            place: fact.place(),
+            place,
         }
     }
 }

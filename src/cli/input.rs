@@ -54,6 +54,21 @@ pub(super) enum InputError {
     BadTemplate(#[from] TemplateErrors),
 }
 
+impl InputError {
+    /// What is wrong, each fault with its place.
+    pub(super) fn findings(&self) -> Vec<Finding> {
+        match self {
+            Self::BadStructure { source, .. } => vec![Finding::new(self, source.place())],
+            Self::BadTemplate(errors) => errors
+                .faults
+                .iter()
+                .map(|fault| Finding::new(fault, fault.place()))
+                .collect(),
+            _ => vec![Finding::new(self, Place::default())],
+        }
+    }
+}
+
 /// An option that had no effect.
 #[derive(Debug, Error, Diagnostic)]
 #[allow(missing_docs, reason = "the messages say it")]

@@ -7,7 +7,7 @@ use crate::cli::input::{self, Input, InputError};
 use crate::cli::jobdir::{self, JobDirError, JobFile};
 use crate::cli::show::{self, Terminal, Voice};
 use crate::design::examples;
-use crate::diagnostic::{Finding, passes};
+use crate::diagnostic::{Finding, Place, passes};
 use crate::export;
 use crate::gate::approve;
 use crate::job::{self, Interrupted, Job, Order};
@@ -63,6 +63,11 @@ impl From<Interrupted> for Failure {
 /// Runs a command line.
 pub fn run(cli: Cli) -> ExitCode {
     let voice = Voice { quiet: cli.quiet, verbose: cli.verbose };
+    let json = match &cli.command {
+        Command::Make(args) => args.input.json,
+        Command::Check(args) => args.input.json,
+        _ => false,
+    };
     let end = match cli.command {
         Command::Make(args) => make(&args, voice),
         Command::Check(args) => check(&args.input, voice),
@@ -75,8 +80,13 @@ pub fn run(cli: Cli) -> ExitCode {
         }
     };
     let end = end.unwrap_or_else(|failure| match failure {
-        Failure::Input(error) => complain(&error, &error.to_string()),
-        Failure::JobDir(error) => complain(&error, &error.to_string()),
+        Failure::Input(error) => {
+            complain(&error, &error.to_string(), json.then(|| error.findings()))
+        }
+        Failure::JobDir(error) => {
+            let findings = || vec![Finding::new(&error, Place::default())];
+            complain(&error, &error.to_string(), json.then(findings))
+        }
         Failure::Interrupted => {
             let _ = writeln!(std::io::stderr(), "interrupted; nothing was written");
             End::Interrupted
@@ -85,8 +95,11 @@ pub fn run(cli: Cli) -> ExitCode {
     ExitCode::from(end as u8)
 }
 
-/// Says what went wrong, always.
-fn complain(error: &dyn Diagnostic, message: &str) -> End {
+/// Says what went wrong, always; as JSON too, if it was asked for.
+fn complain(error: &dyn Diagnostic, message: &str, json: Option<Vec<Finding>>) -> End {
+    if let Some(findings) = json {
+        print(&format!("{}\n", check_json(&findings)));
+    }
     let mut stderr = std::io::stderr();
     let _ = writeln!(stderr, "error: {message}");
     if let (Some(code), Some(help)) = (error.code(), error.help()) {

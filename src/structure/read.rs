@@ -73,6 +73,17 @@ pub enum ReadError {
     DepthCount { count: usize, nodes: usize },
 }
 
+impl Located for ReadError {
+    fn place(&self) -> Place {
+        match *self {
+            Self::BadJson { line, .. } | Self::BadObj { line, .. } => Place::line(line),
+            Self::ConflictingAxes { line, node } => Place::line(line).at(node),
+            Self::MissingAxes { node, .. } => Place::nodes([node]),
+            _ => Place::default(),
+        }
+    }
+}
+
 /// Something in a file that its maker may have meant otherwise.
 #[derive(Debug, Clone, PartialEq, Eq, Error, Diagnostic)]
 #[allow(missing_docs, reason = "the messages say it")]
@@ -117,10 +128,9 @@ pub enum ReadNote {
 
 impl Located for ReadNote {
     fn place(&self) -> Place {
-        let line = match self {
-            Self::NotAFace { line, .. } => Some(*line),
-            _ => None,
-        };
-        Place { line, ..Place::default() }
+        match *self {
+            Self::NotAFace { line, .. } => Place::line(line),
+            _ => Place::default(),
+        }
     }
 }

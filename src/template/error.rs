@@ -1,6 +1,6 @@
 //! What can be wrong with a template.
 
-use crate::diagnostic::short;
+use crate::diagnostic::{Located, Place, short};
 use miette::Diagnostic;
 use std::fmt;
 use thiserror::Error;
@@ -59,6 +59,20 @@ pub enum Fault {
         )
     )]
     UnknownName { found: String, nearest: String },
+}
+
+impl Located for Fault {
+    fn place(&self) -> Place {
+        match *self {
+            Self::BadToml { line, .. }
+            | Self::UnknownKey { line, .. }
+            | Self::WrongType { line, .. }
+            | Self::OutOfRange { line, .. } => Place::line(line),
+            Self::MissingKey { .. }
+            | Self::Contradiction { .. }
+            | Self::UnknownName { .. } => Place::default(),
+        }
+    }
 }
 
 /// Where something stands; nothing if the line could not be found (0).

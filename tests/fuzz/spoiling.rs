@@ -5,7 +5,6 @@
 use finwright::diagnostic::{Severity, passes};
 use finwright::export::PngLook;
 use finwright::gate::approve;
-use finwright::geometry::{Point3, Vector3};
 use finwright::job::{self, Job, Order};
 use finwright::nest::Effort;
 use finwright::sheets::Path;
@@ -16,6 +15,11 @@ use finwright::template::{self, Template};
 use finwright::tolerance::Tolerance;
 use finwright::units::Unit;
 use finwright::{export, report};
+
+#[path = "valid.rs"]
+mod valid;
+
+use valid::{crossed, embedded, grid, offcuts, ring, without_strips};
 
 /// A kind of text that finwright reads.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -183,89 +187,6 @@ fn assert_finite(job: &Job) {
         };
         assert!(finite, "{stroke:?}");
     }
-}
-
-/// Sheets so small that strips are spliced, at times into pieces of one node.
-fn offcuts() -> Template {
-    let mut template = template::read(&embedded("card-1.5"), "offcuts").unwrap();
-    template.sheet.truncate(1);
-    (template.sheet[0].width_mm, template.sheet[0].height_mm) = (110.0, 70.0);
-    template
-}
-
-fn embedded(name: &str) -> String {
-    template::embedded(name).unwrap().to_owned()
-}
-
-fn without_strips(json: &str) -> String {
-    let mut value: serde_json::Value = serde_json::from_str(json).unwrap();
-    let object = value.as_object_mut().unwrap();
-    object.remove("strips");
-    object.remove("fins");
-    // One key a line, so that lines can be dropped.
-    serde_json::to_string_pretty(&value).unwrap()
-}
-
-/// A flat patch of cells with upright axes.
-pub(crate) fn grid(columns: usize, rows: usize) -> Draft {
-    let at = |i: usize, j: usize| j * (columns + 1) + i;
-    let nodes = (0..=rows).flat_map(|j| (0..=columns).map(move |i| (i, j)));
-    let cells = (0..rows).flat_map(|j| (0..columns).map(move |i| (i, j)));
-    let positions: Vec<Point3> =
-        nodes.map(|(i, j)| Point3::new(60.0 * i as f64, 60.0 * j as f64, 0.0)).collect();
-    Draft {
-        name: "grid".into(),
-        axes: vec![Vector3::z(); positions.len()],
-        positions,
-        faces: cells
-            .map(|(i, j)| vec![at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)])
-            .collect(),
-        ..Draft::default()
-    }
-    .with_depth(20.0, 20.0)
-}
-
-/// Two closed rings and the fins between them.
-pub(crate) fn ring(count: usize) -> Draft {
-    let turn = |k: usize| 2.0 * std::f64::consts::PI * k as f64 / count as f64;
-    let around = |radius: f64| {
-        (0..count).map(move |k| {
-            let (sin, cos) =
-                (libm_sin(turn(k)), libm_sin(turn(k) + std::f64::consts::FRAC_PI_2));
-            Point3::new(radius * cos, radius * sin, 0.0)
-        })
-    };
-    let positions: Vec<Point3> = around(150.0).chain(around(250.0)).collect();
-    Draft {
-        name: "ring".into(),
-        axes: vec![Vector3::z(); positions.len()],
-        positions,
-        faces: (0..count)
-            .map(|k| vec![k, count + k, count + (k + 1) % count, (k + 1) % count])
-            .collect(),
-        ..Draft::default()
-    }
-    .with_depth(15.0, 15.0)
-}
-
-/// Sine through finwright's own, that is the same everywhere.
-fn libm_sin(angle: f64) -> f64 {
-    finwright::geometry::trig::sin(angle)
-}
-
-/// Fins without faces: a cross of two strips.
-fn crossed() -> Draft {
-    let positions = [(0.0, 0.0), (80.0, 0.0), (-80.0, 0.0), (0.0, 80.0), (0.0, -80.0)];
-    Draft {
-        name: "crossed".into(),
-        positions: positions.map(|(x, y)| Point3::new(x, y, 0.0)).to_vec(),
-        axes: vec![Vector3::z(); 5],
-        fins: Some(vec![[0, 1], [0, 2], [0, 3], [0, 4]]),
-        faces: vec![vec![0, 1, 3], vec![0, 3, 2], vec![0, 2, 4], vec![0, 4, 1]],
-        fixed: Some(vec![1, 2]),
-        ..Draft::default()
-    }
-    .with_depth(20.0, 10.0)
 }
 
 /// Numbers that have broken programs before.

@@ -27,7 +27,11 @@ fn a_file_that_cannot_be_read_writes_nothing() {
     let place = tempfile::tempdir().unwrap();
     let (code, printed) =
         make("fixtures/bad/read/bad_json.json", &place.path().join("job"));
-    assert_eq!((code, printed.as_str()), (Some(1), ""));
+    assert_eq!(code, Some(1));
+    let said: serde_json::Value = serde_json::from_str(&printed).unwrap();
+    assert_eq!(said["passes"], false);
+    assert_eq!(said["findings"][0]["code"], "read::bad_json");
+    assert_eq!(said["findings"][0]["place"]["line"], 11);
     assert_eq!(entries(place.path()), Vec::<String>::new());
 }
 
@@ -61,4 +65,21 @@ fn a_folder_of_somebody_else_is_refused_before_any_work() {
     let (code, _) = make("vault", place.path());
     assert_eq!(code, Some(1));
     assert_eq!(entries(place.path()), ["thesis.txt"]);
+}
+
+/// Windows editors put a mark before the text, and old exporters write names in Latin-1.
+#[test]
+fn foreign_bytes_that_do_no_harm_are_read_over() {
+    let place = tempfile::tempdir().unwrap();
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let mesh = std::fs::read(root.join("fixtures/bad/read/not_a_face.obj")).unwrap();
+    let latin = [b"# Fl\xE4che\n".as_slice(), &mesh].concat();
+    let json = std::fs::read(root.join("fixtures/bad/read/unknown_key.json")).unwrap();
+    let marked = [b"\xEF\xBB\xBF".as_slice(), &json].concat();
+    for (name, bytes) in [("latin.obj", latin), ("marked.json", marked)] {
+        let path = place.path().join(name);
+        std::fs::write(&path, bytes).unwrap();
+        let (code, _) = make(&path.to_string_lossy(), &place.path().join("job"));
+        assert_eq!(code, Some(0), "{name}");
+    }
 }
