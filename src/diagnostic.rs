@@ -133,7 +133,7 @@ impl Finding {
 /// A number for a message: six digits at most, so that nobody has to count zeros.
 pub fn short(value: f64) -> String {
     let six: f64 = format!("{value:.5e}").parse().unwrap_or(value);
-    if six == 0.0 || !six.is_finite() || (1e-4..1e9).contains(&six.abs()) {
+    if six == 0.0 || !six.is_finite() || (0.0001..1e9).contains(&six.abs()) {
         format!("{}", six + 0.0)
     } else {
         format!("{six:e}")

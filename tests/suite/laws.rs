@@ -190,7 +190,7 @@ proptest! {
         let (meant, _) = Structure::new(draft, &Tolerance::default()).expect("it is sound");
         let text = write_json(&meant);
         let json = read_json(&text, AxisRule::File).expect("we wrote it");
-        let (read, _) = Structure::new(json, &Tolerance::default()).expect("it was sound");
+        let (read, _) = Structure::new(json.0, &Tolerance::default()).expect("it was sound");
         prop_assert_eq!(&meant, &read);
         prop_assert_eq!(text, write_json(&read));
         let options = ObjOptions { unit: Unit::Millimetre, axes: AxisRule::File };

@@ -257,7 +257,7 @@ fn examples_are_structures_and_templates_pass_their_own_check() {
     for name in names(&examples) {
         let text = said(&run(place.path(), &["example", "write", &name]).stdout);
         let draft = read_json(&text, AxisRule::File).expect("we wrote it");
-        assert!(Structure::new(draft, &Tolerance::default()).is_ok(), "{name}");
+        assert!(Structure::new(draft.0, &Tolerance::default()).is_ok(), "{name}");
     }
     for name in names(&said(&run(place.path(), &["template", "list"]).stdout)) {
         let source = run(place.path(), &["template", "show", &name]).stdout;
