@@ -1,7 +1,8 @@
 //! How long each stage takes and how it grows: `cargo bench --bench stages`.
 //!
 //! Patches of a sphere with radial axes, nodes 28 mm apart, 1,000 to 10,000 fins, on the
-//! default template; the least of three runs each. By hand, never a test.
+//! default template; the median of five runs each, as time passed and as time of all cores
+//! (Linux only), which other work on the machine disturbs less. By hand, never a test.
 
 use finwright::geometry::{Point3, Vector3};
 use finwright::job::{self, Order};
@@ -10,13 +11,22 @@ use finwright::structure::Draft;
 use finwright::watch::Watch;
 use std::time::{Duration, Instant};
 
-/// Notes when each stage begins.
-struct Clock(Vec<(&'static str, Instant)>);
+/// Notes when each stage begins, and how much the cores had worked by then.
+struct Clock(Vec<(&'static str, Instant, f64)>);
+
+/// Seconds that all cores have spent on this program; 0 where the system does not tell.
+fn worked() -> f64 {
+    let stat = std::fs::read_to_string("/proc/self/stat").unwrap_or_default();
+    let fields = stat.rsplit(')').next().unwrap_or_default().split_whitespace();
+    // Fields 14 and 15 of the whole line, in hundredths of a second.
+    let ticks: f64 = fields.skip(11).take(2).filter_map(|f| f.parse::<f64>().ok()).sum();
+    ticks / 100.0
+}
 
 impl Watch for Clock {
     fn progress(&mut self, stage: &'static str, _done: usize, _total: usize) {
-        if self.0.last().is_none_or(|(last, _)| *last != stage) {
-            self.0.push((stage, Instant::now()));
+        if self.0.last().is_none_or(|(last, ..)| *last != stage) {
+            self.0.push((stage, Instant::now(), worked()));
         }
     }
 
@@ -50,8 +60,11 @@ fn patch(fins: usize) -> Draft {
     .with_depth(16.0, 16.0)
 }
 
-/// Seconds of each stage of one run, in order, and the number of fins.
-fn run(fins: usize) -> (usize, Vec<(&'static str, f64)>) {
+/// A stage with its seconds, passed and worked.
+type Span = (&'static str, [f64; 2]);
+
+/// Seconds of each stage of one run, passed and worked, in order, and the number of fins.
+fn run(fins: usize) -> (usize, Vec<Span>) {
     let source = finwright::template::embedded("pmma-cast-3").unwrap_or_default();
     let Ok(template) = finwright::template::read(source, "pmma-cast-3") else {
         return (0, Vec::new());
@@ -70,37 +83,51 @@ fn run(fins: usize) -> (usize, Vec<(&'static str, f64)>) {
         std::hint::black_box(finwright::export::cut_files(&sheets));
     }
     clock.progress("end", 0, 1);
-    let span = |pair: &[(&'static str, Instant)]| {
+    let span = |pair: &[(&'static str, Instant, f64)]| {
         let time: Duration = pair[1].1 - pair[0].1;
-        (pair[0].0, time.as_secs_f64())
+        (pair[0].0, [time.as_secs_f64(), pair[1].2 - pair[0].2])
     };
     let fins = job.structure.map_or(0, |s| s.fins().len());
     (fins, clock.0.windows(2).map(span).collect())
 }
 
+/// The middle one.
+fn median(mut values: Vec<f64>) -> f64 {
+    values.sort_by(f64::total_cmp);
+    values[values.len() / 2]
+}
+
+/// Slope of the straight line nearest to the points.
+fn slope(points: &[[f64; 2]]) -> f64 {
+    let mean = |k: usize| points.iter().map(|p| p[k]).sum::<f64>() / points.len() as f64;
+    let (x, y) = (mean(0), mean(1));
+    points.iter().map(|p| (p[0] - x) * (p[1] - y)).sum::<f64>()
+        / points.iter().map(|p| (p[0] - x) * (p[0] - x)).sum::<f64>()
+}
+
 #[allow(clippy::print_stdout, reason = "a benchmark prints its table")]
 fn main() {
-    let mut logs = Vec::new();
-    for fins in [1_000, 3_000, 10_000] {
-        let runs: Vec<_> = (0..3).map(|_| run(fins)).collect();
-        let least = |stage: usize| {
-            runs.iter().map(|(_, spans)| spans[stage].1).fold(f64::INFINITY, f64::min)
-        };
-        let (count, spans) = &runs[0];
-        let mut text = format!("{count:6} fins");
-        let mut all_but_nest = 0.0;
-        for (stage, (name, _)) in spans.iter().enumerate() {
-            let seconds = least(stage);
-            text += &format!("  {name} {seconds:.3} s");
-            all_but_nest += if *name == "nest" { 0.0 } else { seconds };
+    for (kind, name) in ["passed", "worked by all cores"].into_iter().enumerate() {
+        println!("median seconds {name}:");
+        let mut logs = Vec::new();
+        for fins in [1_000, 3_000, 10_000] {
+            let runs: Vec<_> = (0..5).map(|_| run(fins)).collect();
+            let of = |take: &dyn Fn(&[Span]) -> f64| {
+                median(runs.iter().map(|(_, spans)| take(spans)).collect())
+            };
+            let (count, spans) = &runs[0];
+            let mut text = format!("{count:6} fins");
+            for (stage, (name, _)) in spans.iter().enumerate() {
+                text += &format!("  {name} {:.3}", of(&|spans| spans[stage].1[kind]));
+            }
+            let but_nest = |spans: &[(&'static str, [f64; 2])]| {
+                let rest = spans.iter().filter(|(name, _)| *name != "nest");
+                rest.map(|(_, seconds)| seconds[kind]).sum()
+            };
+            let all = of(&but_nest);
+            println!("{text}  all but nest {all:.3}");
+            logs.push([(*count as f64).log10(), all.log10()]);
         }
-        println!("{text}  all but nest {all_but_nest:.3} s");
-        logs.push(((*count as f64).log10(), all_but_nest.log10()));
+        println!("fitted exponent, all but nest: {:.3}", slope(&logs));
     }
-    let mean =
-        |of: fn(&(f64, f64)) -> f64| logs.iter().map(of).sum::<f64>() / logs.len() as f64;
-    let (x, y) = (mean(|p| p.0), mean(|p| p.1));
-    let slope = logs.iter().map(|p| (p.0 - x) * (p.1 - y)).sum::<f64>()
-        / logs.iter().map(|p| (p.0 - x) * (p.0 - x)).sum::<f64>();
-    println!("fitted exponent, all but nest: {slope:.3}");
 }
