@@ -7,6 +7,7 @@ mod architecture;
 mod diagnostics;
 mod golden;
 mod laws;
+mod peers;
 mod plane;
 mod refusals;
 mod regressions;
