@@ -66,3 +66,30 @@ pub const UNIT_LENGTH: f64 = 8.0 * f64::EPSILON;
 /// Farthest that anything may be from the origin, mm; there coordinates are still kept to
 /// 1.2e-7 mm, less than what is written.
 pub const FARTHEST_MM: f64 = 1e9;
+
+/// A rotation that moves no point by more than this share of the body's radius is none:
+/// the body touches one axis only, or one point.
+pub const NO_ROTATION: f64 = 1e-10;
+
+/// Singular values of the compatibility matrix, whose largest is 1, that count as zero.
+pub const NO_RESISTANCE: f64 = 1e-11;
+
+/// Sleeve deviation over sleeve motion below which a mode is looked at again by
+/// orthogonal means before it is called resisted.
+pub const SUSPECT_RESISTANCE: f64 = 1e-6;
+
+/// Stiffness added to each unknown, as a share of its own, so that factorising a mechanism
+/// does not fail.
+pub const SHIFT: f64 = 1e-13;
+
+/// Lanczos stops when a mode's residual is below this share of its eigenvalue.
+pub const MODE_RESIDUAL: f64 = 1e-9;
+
+/// Brackets of the amplification narrower than this, upper over lower, are not tightened.
+pub const BRACKET_WIDTH: f64 = 1.1;
+
+/// A vector that shrinks below this share of its length when made orthogonal is gone.
+pub const VANISHED: f64 = 1e-14;
+
+/// Contact forces that miss a unit load by more than this are no equilibrium.
+pub const FORCE_BALANCE: f64 = 1e-6;

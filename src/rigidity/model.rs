@@ -1,0 +1,221 @@
+//! Bodies and the points they share: what a structure is, as a mechanism.
+//!
+//! A *pin* is a node axis, given by its two ends, with the bodies that meet on it. In hubs
+//! each fin also shares a third point, off the axis, with its hub: a *slot*. Both are
+//! [`Knot`]s. Notes: `docs/rigidity.md`.
+
+use crate::geometry::{Point3, Vector3};
+use crate::joint::Joint;
+use crate::structure::Structure;
+use std::collections::{BTreeMap, BTreeSet};
+
+/// A rigid body of a model.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Body {
+    /// A strip, by its number.
+    Strip(usize),
+    /// A fin, by its nodes.
+    Fin([usize; 2]),
+    /// The hub of a node.
+    Hub(usize),
+    /// A body of a linkage, by its number.
+    Link(usize),
+}
+
+impl std::fmt::Display for Body {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Self::Strip(strip) => write!(f, "strip {strip}"),
+            Self::Fin([i, j]) => write!(f, "fin {i}-{j}"),
+            Self::Hub(node) => write!(f, "hub {node}"),
+            Self::Link(body) => write!(f, "body {body}"),
+        }
+    }
+}
+
+/// Points that move together with every body on it, up to the play.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Knot {
+    /// The node it is at.
+    pub node: usize,
+    /// Two points, the lower and the upper end of the axis, or the one point of a slot; mm.
+    pub points: Vec<Point3>,
+    /// The bodies on it, ascending.
+    pub bodies: Vec<usize>,
+    /// Whether the ground holds it.
+    pub held: bool,
+    /// Where the node lies between the two points, from 0 to 1.
+    pub share: f64,
+}
+
+impl Knot {
+    /// Whether it is a node axis.
+    pub fn is_pin(&self) -> bool {
+        self.points.len() == 2
+    }
+
+    /// The node's place on it, mm.
+    pub fn place(&self) -> Point3 {
+        let (first, last) = (self.points[0], self.points[self.points.len() - 1]);
+        first + (last - first) * self.share
+    }
+}
+
+/// Bodies and the knots between them.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Model {
+    /// What each body is.
+    pub bodies: Vec<Body>,
+    /// Pins first, in the order of their nodes, then slots.
+    pub knots: Vec<Knot>,
+    /// The knots of each body, ascending.
+    pub touches: Vec<Vec<usize>>,
+}
+
+impl Model {
+    /// Puts bodies and knots together.
+    pub fn new(bodies: Vec<Body>, knots: Vec<Knot>) -> Self {
+        let mut touches = vec![Vec::new(); bodies.len()];
+        for (k, knot) in knots.iter().enumerate() {
+            for &body in &knot.bodies {
+                touches[body].push(k);
+            }
+        }
+        Self { bodies, knots, touches }
+    }
+
+    /// A structure with a joint. `unheld` are ends of strips, as strip and node, that
+    /// nothing holds; they count as no incidence.
+    pub fn of(
+        structure: &Structure,
+        joint: Joint,
+        unheld: &BTreeSet<(usize, usize)>,
+    ) -> Self {
+        let (mut bodies, mut on) = match joint {
+            Joint::Lap => strips(structure, unheld),
+            Joint::Hinge | Joint::Hub => fins(structure),
+        };
+        let mut slots = Vec::new();
+        if joint == Joint::Hub {
+            slots = add_hubs(structure, &mut bodies, &mut on);
+        }
+        let fixed: BTreeSet<usize> = structure.fixed().iter().copied().collect();
+        let mut knots = Vec::new();
+        for (node, bodies) in on {
+            let held = fixed.contains(&node);
+            // A node with one body only is no pin, unless the ground is the other one.
+            if bodies.len() < 2 && !held {
+                continue;
+            }
+            let at = &structure.nodes()[node];
+            let (points, share) =
+                (vec![at.bottom(), at.top()], at.below / at.height());
+            knots.push(Knot { node, points, bodies, held, share });
+        }
+        knots.extend(slots);
+        Self::new(bodies, knots)
+    }
+
+    /// The points of a body, in the order of its knots.
+    pub fn points(&self, body: usize) -> Vec<Point3> {
+        let knots = self.touches[body].iter();
+        knots.flat_map(|&k| self.knots[k].points.iter().copied()).collect()
+    }
+
+    /// How many node axes there are.
+    pub fn pins(&self) -> usize {
+        self.knots.iter().filter(|knot| knot.is_pin()).count()
+    }
+
+    /// Whether the ground holds anything.
+    pub fn is_supported(&self) -> bool {
+        self.knots.iter().any(|knot| knot.held)
+    }
+
+    /// The pin of a node, if it is one.
+    pub fn pin(&self, node: usize) -> Option<usize> {
+        self.knots.iter().position(|knot| knot.is_pin() && knot.node == node)
+    }
+
+    /// The same with two bodies of a pin made one as far as turning about its axis goes:
+    /// a slot that both share, off the axis by half the pin's length.
+    #[must_use]
+    pub fn welded(mut self, pin: usize, bodies: [usize; 2]) -> Self {
+        let knot = &self.knots[pin];
+        let axis = knot.points[1] - knot.points[0];
+        let away = across(axis) * (axis.norm() / 2.0);
+        let points = vec![knot.place() + away];
+        let slot = Knot {
+            node: knot.node,
+            points,
+            bodies: bodies.to_vec(),
+            held: false,
+            share: 0.0,
+        };
+        self.knots.push(slot);
+        Self::new(self.bodies, self.knots)
+    }
+
+    /// The same with a node held by the ground.
+    #[must_use]
+    pub fn with_held(mut self, node: usize) -> Self {
+        for knot in &mut self.knots {
+            knot.held |= knot.node == node && knot.is_pin();
+        }
+        self
+    }
+}
+
+/// A unit vector across `axis`.
+fn across(axis: Vector3) -> Vector3 {
+    let smallest = axis.iamin();
+    let mut away = Vector3::zeros();
+    away[smallest] = 1.0;
+    axis.cross(&away).normalize()
+}
+
+type On = BTreeMap<usize, Vec<usize>>;
+
+fn strips(structure: &Structure, unheld: &BTreeSet<(usize, usize)>) -> (Vec<Body>, On) {
+    let mut on = On::new();
+    for (index, strip) in structure.strips().iter().enumerate() {
+        for &node in &strip.nodes {
+            if !unheld.contains(&(index, node)) {
+                on.entry(node).or_default().push(index);
+            }
+        }
+    }
+    ((0..structure.strips().len()).map(Body::Strip).collect(), on)
+}
+
+fn fins(structure: &Structure) -> (Vec<Body>, On) {
+    let mut on = On::new();
+    for (index, fin) in structure.fins().iter().enumerate() {
+        for &node in fin {
+            on.entry(node).or_default().push(index);
+        }
+    }
+    (structure.fins().iter().copied().map(Body::Fin).collect(), on)
+}
+
+/// A hub on every node where fins meet, and a slot in it for each of them, at a third of
+/// the way along the fin or half the axis, whichever is less.
+fn add_hubs(structure: &Structure, bodies: &mut Vec<Body>, on: &mut On) -> Vec<Knot> {
+    let mut slots = Vec::new();
+    for (&node, fins) in on.iter_mut() {
+        let hub = bodies.len();
+        let at = &structure.nodes()[node];
+        for &fin in fins.iter() {
+            let Body::Fin([i, j]) = bodies[fin] else { continue };
+            let to = if i == node { j } else { i };
+            let length = (structure.nodes()[to].position - at.position).norm();
+            let out = (at.height() / 2.0).min(length / 3.0);
+            let point = at.position + structure.direction(node, to) * out;
+            let bodies = vec![fin, hub];
+            slots.push(Knot { node, points: vec![point], bodies, held: false, share: 0.0 });
+        }
+        bodies.push(Body::Hub(node));
+        fins.push(hub);
+    }
+    slots
+}

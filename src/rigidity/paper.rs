@@ -1,0 +1,400 @@
+//! The algorithm of the paper, section "Stability", as it stands there.
+//!
+//! Every body has a motion `X = (C, C̄)`, `V(q) = C × q + C̄`; the rows of `A` compare the
+//! velocities of bodies at the two ends of each hinge; body 0 is held. The right singular
+//! vector of the smallest singular value is the motion that the hinges resist least, and
+//! the *discrepancy* of a hinge is how far two bodies part there while the far node moves
+//! by 1. Depends on units and on the held body, so that it is shown and not judged by
+//! (notes §1.4, §3.1).
+
+use crate::geometry::{Point3, Vector3};
+use crate::rigidity::factor::{Factor, Singular};
+use crate::rigidity::lanczos::{self, Operator};
+use crate::rigidity::model::Model;
+use crate::rigidity::motions::Motions;
+use crate::rigidity::system::System;
+use faer::{Mat, MatRef};
+
+/// Which bodies on one axis are compared with which.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Pairing {
+    /// Each with the mean of all: the rod of the hinge.
+    #[default]
+    Pin,
+    /// Each with the next.
+    Chain,
+    /// Each with the first.
+    Star,
+    /// Each with the next, the last with the first.
+    Cyclic,
+    /// Each with every other.
+    All,
+}
+
+impl Pairing {
+    /// As it is typed and written.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Pin => "pin",
+            Self::Chain => "chain",
+            Self::Star => "star",
+            Self::Cyclic => "cyclic",
+            Self::All => "all",
+        }
+    }
+
+    /// Differences to take among `count` bodies: their shares in each.
+    fn differences(self, count: usize) -> Vec<Vec<(usize, f64)>> {
+        let pair = |i: usize, j: usize| vec![(i, 1.0), (j, -1.0)];
+        match self {
+            _ if count < 2 => Vec::new(),
+            Self::Pin => {
+                let mean = 1.0 / count as f64;
+                let share = |i: usize, j: usize| if i == j { 1.0 - mean } else { -mean };
+                let row = |i: usize| (0..count).map(|j| (j, share(i, j))).collect();
+                (0..count).map(row).collect()
+            }
+            Self::Chain => (1..count).map(|j| pair(j - 1, j)).collect(),
+            Self::Star => (1..count).map(|j| pair(0, j)).collect(),
+            Self::Cyclic => (0..count).map(|j| pair(j, (j + 1) % count)).collect(),
+            Self::All => {
+                let firsts = 0..count;
+                firsts.flat_map(|i| (i + 1..count).map(move |j| pair(i, j))).collect()
+            }
+        }
+    }
+}
+
+/// How far two bodies part at a hinge.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Discrepancy {
+    /// The node of the hinge.
+    pub node: usize,
+    /// The two bodies.
+    pub bodies: [usize; 2],
+    /// The larger of the two ends' differences of velocity, the far node moving by 1.
+    pub value: f64,
+}
+
+/// One of the motions that the hinges resist least.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Motion {
+    /// Its singular value.
+    pub sigma: f64,
+    /// `(C, C̄)` of each body, in the scaled structure, the far node moving by 1.
+    pub twists: Vec<[f64; 6]>,
+}
+
+/// The paper's figures.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Paper {
+    /// How bodies on one axis were compared.
+    pub pairing: Pairing,
+    /// Scaled lengths over lengths in mm.
+    pub scale: f64,
+    /// The smallest singular values of `A`, ascending.
+    pub singular_values: Vec<f64>,
+    /// The largest.
+    pub largest: f64,
+    /// The motions of the smallest that move a hinge.
+    pub motions: Vec<Motion>,
+    /// Per hinge and pair of bodies, in the first of these motions.
+    pub discrepancies: Vec<Discrepancy>,
+}
+
+/// Up to this many bodies all singular values come from one dense decomposition.
+const DENSE: usize = 48;
+
+/// Computes the paper's figures with body 0 held and no other support.
+///
+/// # Errors
+/// [`Singular`] if the factorisation fails.
+pub(super) fn paper(
+    model: &Model,
+    (pairing, scale): (Pairing, f64),
+    wanted: usize,
+    threads: usize,
+) -> Result<Paper, Singular> {
+    let free = scaled(model, scale);
+    let matrix = Matrix { model: &free, pairing };
+    let (mut sigma, twists, largest) = if model.bodies.len() <= DENSE {
+        matrix.dense(wanted)
+    } else {
+        matrix.sparse(wanted, threads)?
+    };
+    let spins: usize =
+        (1..free.bodies.len()).map(|body| 6 - free_rank(&free, body)).sum();
+    let far = far_node(&free);
+    let moving = twists.into_iter().zip(&sigma);
+    let motions: Vec<Motion> = moving
+        .map(|(twists, &sigma)| Motion { sigma, twists: normalised(&free, far, twists) })
+        .collect();
+    sigma.splice(0..0, std::iter::repeat_n(0.0, spins.min(wanted)));
+    sigma.truncate(wanted);
+    let discrepancies =
+        motions.first().map_or_else(Vec::new, |motion| discrepancies(&free, motion));
+    Ok(Paper { pairing, scale, singular_values: sigma, largest, motions, discrepancies })
+}
+
+/// The model with other lengths and no supports.
+fn scaled(model: &Model, scale: f64) -> Model {
+    let mut free = model.clone();
+    for knot in &mut free.knots {
+        knot.held = false;
+        knot.points.iter_mut().for_each(|p| *p *= scale);
+    }
+    free
+}
+
+fn free_rank(model: &Model, body: usize) -> usize {
+    let points = model.points(body);
+    Motions::new(&points, &vec![1.0; points.len()]).rank
+}
+
+/// Velocity of a point.
+fn velocity(x: &[f64; 6], q: Point3) -> Vector3 {
+    let (c, bar) = (Vector3::new(x[0], x[1], x[2]), Vector3::new(x[3], x[4], x[5]));
+    c.cross(&q.coords) + bar
+}
+
+/// The pin farthest from the middle of body 0.
+fn far_node(model: &Model) -> Option<usize> {
+    let points = model.points(0);
+    let sum: Vector3 = points.iter().map(|p| p.coords).sum();
+    let middle = Point3::from(sum / points.len().max(1) as f64);
+    let pins = (0..model.knots.len()).filter(|&k| model.knots[k].is_pin());
+    let off = |k: &usize| (model.knots[*k].place() - middle).norm_squared();
+    pins.max_by(|a, b| off(a).total_cmp(&off(b)))
+}
+
+/// Velocity of the rod of a knot: the mean of its bodies.
+fn rod(model: &Model, knot: usize, twists: &[[f64; 6]]) -> Vector3 {
+    let knot = &model.knots[knot];
+    let all = knot.bodies.iter().map(|&b| velocity(&twists[b], knot.place()));
+    all.sum::<Vector3>() / knot.bodies.len().max(1) as f64
+}
+
+/// A motion scaled so that the far node, or if it stands still the one that moves most,
+/// moves by 1.
+fn normalised(
+    model: &Model,
+    far: Option<usize>,
+    mut twists: Vec<[f64; 6]>,
+) -> Vec<[f64; 6]> {
+    let speeds: Vec<f64> =
+        (0..model.knots.len()).map(|k| rod(model, k, &twists).norm()).collect();
+    let most = speeds.iter().copied().fold(0.0, f64::max);
+    let speed = far.map_or(most, |far| speeds[far]);
+    let speed = if speed > 1e-6 * most { speed } else { most };
+    if speed > 0.0 {
+        twists.iter_mut().flatten().for_each(|x| *x /= speed);
+    }
+    twists
+}
+
+fn discrepancies(model: &Model, motion: &Motion) -> Vec<Discrepancy> {
+    let mut all = Vec::new();
+    for knot in &model.knots {
+        for (k, &a) in knot.bodies.iter().enumerate() {
+            for &b in &knot.bodies[k + 1..] {
+                let part = |&q: &Point3| {
+                    let [x, y] = [a, b].map(|body| velocity(&motion.twists[body], q));
+                    (x - y).norm()
+                };
+                let value = knot.points.iter().map(part).fold(0.0, f64::max);
+                all.push(Discrepancy { node: knot.node, bodies: [a, b], value });
+            }
+        }
+    }
+    all
+}
+
+/// `A`, row by row; unknowns are the motions of the bodies after the first.
+struct Matrix<'a> {
+    model: &'a Model,
+    pairing: Pairing,
+}
+
+type Solved = (Vec<f64>, Vec<Vec<[f64; 6]>>, f64);
+
+impl Matrix<'_> {
+    fn size(&self) -> usize {
+        6 * (self.model.bodies.len() - 1)
+    }
+
+    fn twists(&self, x: impl Fn(usize) -> f64) -> Vec<[f64; 6]> {
+        let of = |body: usize| std::array::from_fn(|k| x(6 * body + k));
+        let moving = (0..self.model.bodies.len() - 1).map(of);
+        std::iter::once([0.0; 6]).chain(moving).collect()
+    }
+
+    /// `A x`.
+    fn apply(&self, twists: &[[f64; 6]]) -> Vec<f64> {
+        let mut all = Vec::new();
+        for knot in &self.model.knots {
+            for difference in self.pairing.differences(knot.bodies.len()) {
+                for &q in &knot.points {
+                    let terms = difference.iter();
+                    let off: Vector3 =
+                        terms.map(|(i, s)| velocity(&twists[knot.bodies[*i]], q) * *s).sum();
+                    all.extend_from_slice(off.as_slice());
+                }
+            }
+        }
+        all
+    }
+
+    /// `Aᵀ v`, body 0 left out.
+    fn transposed(&self, values: &[f64]) -> Vec<f64> {
+        let mut x = vec![0.0; self.size() + 6];
+        let mut values = values.chunks_exact(3);
+        for knot in &self.model.knots {
+            for difference in self.pairing.differences(knot.bodies.len()) {
+                for (q, v) in knot.points.iter().zip(&mut values) {
+                    let v = Vector3::new(v[0], v[1], v[2]);
+                    let turn = q.coords.cross(&v);
+                    for (i, share) in &difference {
+                        let at = 6 * knot.bodies[*i];
+                        for k in 0..3 {
+                            x[at + k] += share * turn[k];
+                            x[at + 3 + k] += share * v[k];
+                        }
+                    }
+                }
+            }
+        }
+        x.split_off(6)
+    }
+
+    /// Everything by one singular value decomposition; motions that move no hinge are
+    /// left out.
+    fn dense(&self, wanted: usize) -> Solved {
+        let n = self.size();
+        let columns: Vec<Vec<f64>> = (0..n)
+            .map(|k| self.apply(&self.twists(|i| f64::from(u8::from(i == k)))))
+            .collect();
+        let rows = columns.first().map_or(0, Vec::len);
+        if rows == 0 {
+            return (Vec::new(), Vec::new(), 0.0);
+        }
+        let matrix = Mat::from_fn(rows.max(n), n, |i, j| {
+            if i < rows { columns[j][i] } else { 0.0 }
+        });
+        let Ok(svd) = matrix.thin_svd() else { return (Vec::new(), Vec::new(), 0.0) };
+        let spins: usize =
+            (1..self.model.bodies.len()).map(|b| 6 - free_rank(self.model, b)).sum();
+        let all: Vec<f64> = (0..n).rev().map(|k| svd.S()[k]).collect();
+        let last = (spins + wanted).min(n);
+        let twists = (spins..last).map(|k| self.twists(|i| svd.V()[(i, n - 1 - k)]));
+        (all[spins..last].to_vec(), twists.collect(), svd.S()[0])
+    }
+
+    fn sparse(&self, wanted: usize, threads: usize) -> Result<Solved, Singular> {
+        let system = System::new(self.model, Some(0), threads);
+        let factor = system.factor(None)?;
+        let inverse = PinInverse { system: &system, factor: &factor };
+        let vectors = lanczos::largest(&inverse, wanted);
+        let mut found: Vec<(f64, Vec<[f64; 6]>)> = (0..vectors.ncols())
+            .map(|k| {
+                let twists = self.twists(|i| vectors[(i, k)]);
+                let norm = |v: &[f64]| v.iter().map(|x| x * x).sum::<f64>().sqrt();
+                (norm(&self.apply(&twists)) / norm(twists.as_flattened()), twists)
+            })
+            .collect();
+        found.sort_by(|a, b| a.0.total_cmp(&b.0));
+        let top = lanczos::largest(&Square(self), 1);
+        let top = self.apply(&self.twists(|i| top[(i, 0)]));
+        let largest = top.iter().map(|x| x * x).sum::<f64>().sqrt();
+        let (sigma, twists) = found.into_iter().unzip();
+        Ok((sigma, twists, largest))
+    }
+}
+
+/// `AᵀA`.
+struct Square<'a>(&'a Matrix<'a>);
+
+impl Operator for Square<'_> {
+    fn size(&self) -> usize {
+        self.0.size()
+    }
+
+    fn apply(&self, block: MatRef<'_, f64>) -> Mat<f64> {
+        let image = |k: usize| {
+            let twists = self.0.twists(|i| block[(i, k)]);
+            self.0.transposed(&self.0.apply(&twists))
+        };
+        let images: Vec<Vec<f64>> = (0..block.ncols()).map(image).collect();
+        Mat::from_fn(block.nrows(), block.ncols(), |i, k| images[k][i])
+    }
+
+    fn project(&self, _block: &mut Mat<f64>) {}
+}
+
+/// The inverse of `AᵀA` for the pairing `pin`: with `J X = Q z` and `X = T z` it is
+/// `T (I + Qᵀ K⁻¹ Q) Tᵀ`, so that the factor of the pin form serves.
+struct PinInverse<'a> {
+    system: &'a System<'a>,
+    factor: &'a Factor<'a>,
+}
+
+impl PinInverse<'_> {
+    /// `Tᵀ x` of one body.
+    fn shares(&self, body: usize, x: impl Fn(usize) -> f64) -> [f64; 6] {
+        let mut shares = [0.0; 6];
+        for (share, twist) in shares.iter_mut().zip(&self.system.motions[body].twists) {
+            *share = twist.iter().enumerate().map(|(k, t)| t * x(6 * body - 6 + k)).sum();
+        }
+        shares
+    }
+}
+
+impl Operator for PinInverse<'_> {
+    fn size(&self) -> usize {
+        6 * (self.system.motions.len() - 1)
+    }
+
+    fn apply(&self, block: MatRef<'_, f64>) -> Mat<f64> {
+        let (system, count) = (self.system, block.ncols());
+        let bodies = 1..system.motions.len();
+        let mut right = vec![0.0; system.unknowns() * count];
+        let mut shares = vec![vec![[0.0; 6]; count]; system.motions.len()];
+        for k in 0..count {
+            let mut sleeves = vec![0.0; 3 * system.sleeve[1]];
+            for body in bodies.clone() {
+                let z = self.shares(body, |i| block[(i, k)]);
+                let motions = &system.motions[body];
+                let from = sleeves.len();
+                sleeves.resize(from + motions.rows, 0.0);
+                for (j, z) in z.iter().enumerate().take(motions.rank) {
+                    let column = motions.column(j).iter();
+                    sleeves[from..].iter_mut().zip(column).for_each(|(s, q)| *s += z * q);
+                }
+                shares[body][k] = z;
+            }
+            let y = system.scatter(&sleeves);
+            for (row, y) in right.chunks_exact_mut(count).zip(y) {
+                row[k] = y;
+            }
+        }
+        self.factor.solve(&mut right, count);
+        let mut image = Mat::zeros(block.nrows(), count);
+        let mut values = Vec::new();
+        for k in 0..count {
+            let y: Vec<f64> = right.chunks_exact(count).map(|row| row[k]).collect();
+            for body in bodies.clone() {
+                system.gather(body, &y, &mut values);
+                let motions = &system.motions[body];
+                let back = motions.shares(&values);
+                for (j, twist) in motions.twists.iter().enumerate() {
+                    let z = shares[body][k][j] + back[j];
+                    for (i, t) in twist.iter().enumerate() {
+                        image[(6 * body - 6 + i, k)] += t * z;
+                    }
+                }
+            }
+        }
+        image
+    }
+
+    fn project(&self, _block: &mut Mat<f64>) {}
+}

@@ -1,0 +1,484 @@
+//! Resistance against motion as a sparse matrix.
+//!
+//! Unknowns are the velocities `y` of the points of all knots that the ground does not
+//! hold. A body answers with its best rigid motion, so that it resists by
+//! `yᵀ S (I - Q Qᵀ) S y`, `Q` its motions and `S` the roots of the weights of its sleeves:
+//! the *pin form* `K` (notes §1.3). A body on many knots keeps its motion as six unknowns
+//! of its own; eliminating the knots first is then the *body form*.
+
+use crate::geometry::Point3;
+use crate::rigidity::factor::{Entries, Factor, Singular};
+use crate::rigidity::model::Model;
+use crate::rigidity::motions::Motions;
+use crate::rigidity::symbolic::Symbolic;
+use crate::tolerance::SHIFT;
+use std::ops::Range;
+
+/// Bodies with more rows than this keep their motion as unknowns.
+const MOST_ROWS: usize = 18;
+
+/// The unknowns of a model, their order, and where each body's resistance goes.
+pub(super) struct System<'a> {
+    /// The model.
+    pub model: &'a Model,
+    /// The motions of each body, all weights 1; none for a body that is fixed.
+    pub motions: Vec<Motions>,
+    /// A body that the ground holds.
+    fixed: Option<usize>,
+    /// For each knot its first unknown, unless it is held.
+    pub knot_at: Vec<Option<usize>>,
+    /// For each knot its group.
+    knot_group: Vec<Option<u32>>,
+    /// For each body its group, if it keeps its motion.
+    body_group: Vec<Option<u32>>,
+    /// The fixed part of the factorisation.
+    pub symbolic: Symbolic,
+    /// By supernode, bodies to add there; with the place of one of its knots for bodies
+    /// that keep their motion.
+    jobs: Vec<Vec<(u32, u32)>>,
+    /// By body, the first of its sleeves (one per knot and point); one more at the end.
+    pub sleeve: Vec<usize>,
+    /// Whether the six rigid motions of the whole are free.
+    pub floats: bool,
+    threads: usize,
+}
+
+const WHOLE: u32 = u32::MAX;
+
+impl<'a> System<'a> {
+    /// Sets the unknowns of a model up; `fixed` is a body to hold beside its held knots.
+    pub fn new(model: &'a Model, fixed: Option<usize>, threads: usize) -> Self {
+        let motions = motions(model, fixed, threads);
+        let rows = |body: usize| motions[body].rows;
+        let mut sizes = Vec::new();
+        let mut group = |size: usize| {
+            sizes.push(size);
+            (sizes.len() - 1) as u32
+        };
+        let knots = model.knots.iter();
+        let knot_group: Vec<Option<u32>> =
+            knots.map(|k| (!k.held).then(|| group(3 * k.points.len()))).collect();
+        let keeps = |body: usize| rows(body) > MOST_ROWS && Some(body) != fixed;
+        let body_group: Vec<Option<u32>> = (0..model.bodies.len())
+            .map(|body| keeps(body).then(|| group(motions[body].rank)))
+            .collect();
+        let neighbours = neighbours(model, &knot_group, &body_group, sizes.len());
+        let symbolic = Symbolic::new(&sizes, &neighbours);
+        let at = |group: u32| symbolic.start[symbolic.place[group as usize]];
+        let knot_at = knot_group.iter().map(|group| group.map(at)).collect();
+        let mut sleeve = vec![0];
+        for body in 0..model.bodies.len() {
+            sleeve.push(sleeve[body] + rows(body) / 3);
+        }
+        let floats = !model.is_supported() && fixed.is_none();
+        let jobs = Vec::new();
+        let mut system = Self {
+            model, motions, fixed, knot_at, knot_group, body_group, symbolic, jobs, sleeve,
+            floats, threads,
+        };
+        system.jobs = system.jobs();
+        system
+    }
+
+    fn jobs(&self) -> Vec<Vec<(u32, u32)>> {
+        let mut jobs = vec![Vec::new(); self.symbolic.supernodes.len()];
+        let place = |group: u32| self.symbolic.place[group as usize];
+        let owner = |place: usize| self.symbolic.owner[place] as usize;
+        for body in 0..self.model.bodies.len() {
+            let knots = self.model.touches[body].iter().enumerate();
+            let free = knots.filter_map(|(t, &k)| Some((t, place(self.knot_group[k]?))));
+            match self.body_group[body].map(place) {
+                Some(own) => {
+                    for (t, knot) in free {
+                        jobs[owner(knot.min(own))].push((body as u32, t as u32));
+                    }
+                }
+                None => {
+                    if let Some(first) = free.map(|(_, place)| place).min() {
+                        jobs[owner(first)].push((body as u32, WHOLE));
+                    }
+                }
+            }
+        }
+        jobs
+    }
+
+    /// The body that is held beside the held knots.
+    pub fn fixed(&self) -> Option<usize> {
+        self.fixed
+    }
+
+    /// How many unknowns there are.
+    pub fn unknowns(&self) -> usize {
+        self.symbolic.unknowns()
+    }
+
+    /// How many bodies sit on each unknown; none on those that are a body's own.
+    pub fn counts(&self) -> Vec<f64> {
+        let mut counts = vec![0.0; self.unknowns()];
+        for (knot, at) in self.model.knots.iter().zip(&self.knot_at) {
+            if let Some(at) = *at {
+                counts[at..at + 3 * knot.points.len()].fill(knot.bodies.len() as f64);
+            }
+        }
+        counts
+    }
+
+    /// Velocities at the points of a body.
+    pub fn gather(&self, body: usize, y: &[f64], into: &mut Vec<f64>) {
+        into.clear();
+        for &knot in &self.model.touches[body] {
+            let size = 3 * self.model.knots[knot].points.len();
+            match self.knot_at[knot] {
+                Some(at) => into.extend_from_slice(&y[at..at + size]),
+                None => into.extend(std::iter::repeat_n(0.0, size)),
+            }
+        }
+    }
+
+    /// How far each sleeve leaves its pin, three numbers per sleeve: `(I - QQᵀ) y`.
+    pub fn deviations(&self, y: &[f64]) -> Vec<f64> {
+        let mut all = Vec::with_capacity(3 * self.sleeve[self.sleeve.len() - 1]);
+        let mut values = Vec::new();
+        for (body, motions) in self.motions.iter().enumerate() {
+            self.gather(body, y, &mut values);
+            motions.clear_values(&mut values);
+            all.extend_from_slice(&values);
+        }
+        all
+    }
+
+    /// How far each sleeve leaves its pin when bodies follow the heavier sleeves more.
+    pub fn weighted_deviations(&self, y: &[f64], weights: &[f64]) -> Vec<f64> {
+        let bodies = 0..self.motions.len();
+        let roots: Vec<f64> = weights.iter().map(|w| w.sqrt()).collect();
+        let of = |body: usize| {
+            let range = self.sleeve[body]..self.sleeve[body + 1];
+            let roots = &roots[range];
+            let mut values = Vec::new();
+            self.gather(body, y, &mut values);
+            if self.fixed != Some(body) {
+                let motions = Motions::new(&self.model.points(body), roots);
+                let scale = |values: &mut [f64], by: &dyn Fn(f64) -> f64| {
+                    let each = values.chunks_exact_mut(3).zip(roots);
+                    each.for_each(|(v, root)| v.iter_mut().for_each(|x| *x *= by(*root)));
+                };
+                scale(&mut values, &|root| root);
+                motions.clear_values(&mut values);
+                scale(&mut values, &|root| 1.0 / root);
+            }
+            values
+        };
+        bodies.flat_map(of).collect()
+    }
+
+    /// Adds up sleeve values on the unknowns: the transpose of gathering.
+    pub fn scatter(&self, sleeves: &[f64]) -> Vec<f64> {
+        let mut y = vec![0.0; self.unknowns()];
+        let mut from = 0;
+        for knots in &self.model.touches {
+            for &knot in knots {
+                let size = 3 * self.model.knots[knot].points.len();
+                if let Some(at) = self.knot_at[knot] {
+                    let values = &sleeves[from..from + size];
+                    y[at..at + size].iter_mut().zip(values).for_each(|(y, v)| *y += v);
+                }
+                from += size;
+            }
+        }
+        y
+    }
+
+    /// Six orthonormal rigid motions of the whole, over all unknowns of knots.
+    pub fn rigid(&self) -> Vec<Vec<f64>> {
+        let knots = self.model.knots.iter().zip(&self.knot_at);
+        let free: Vec<(Point3, usize)> = knots
+            .filter_map(|(knot, at)| Some((knot, (*at)?)))
+            .flat_map(|(knot, at)| {
+                knot.points.iter().enumerate().map(move |(k, &p)| (p, at + 3 * k))
+            })
+            .collect();
+        let points: Vec<Point3> = free.iter().map(|(p, _)| *p).collect();
+        let motions = Motions::new(&points, &vec![1.0; points.len()]);
+        let spread = |k: usize| {
+            let mut y = vec![0.0; self.unknowns()];
+            for (values, (_, at)) in motions.column(k).chunks_exact(3).zip(&free) {
+                y[*at..at + 3].copy_from_slice(values);
+            }
+            y
+        };
+        (0..motions.rank).map(spread).collect()
+    }
+
+    /// Factorises the resistance, each sleeve with its weight.
+    ///
+    /// # Errors
+    /// [`Singular`] if a motion meets no resistance even with the shift.
+    pub fn factor(&self, weights: Option<&[f64]>) -> Result<Factor<'_>, Singular> {
+        let stiffness = Stiffness::new(self, weights);
+        Factor::new(&self.symbolic, &stiffness, self.threads)
+    }
+
+    /// Six unknowns that hold the whole still and strain nothing, and how strongly.
+    fn stays(&self, diagonal: &[f64]) -> Vec<(usize, f64)> {
+        let free = |k: &usize| self.knot_at[*k].is_some() && self.model.knots[*k].is_pin();
+        let Some(first) = (0..self.model.knots.len()).find(free) else { return Vec::new() };
+        let Some(at) = self.knot_at[first] else { return Vec::new() };
+        let [a, b] = [0, 1].map(|k| self.model.knots[first].points[k]);
+        let axis = (b - a).normalize();
+        let along = axis.iamax();
+        let mut stays: Vec<usize> = (at..at + 6).filter(|&k| k != at + 3 + along).collect();
+        let knots = self.model.knots.iter().zip(&self.knot_at);
+        let lever = |p: Point3| axis.cross(&(p - a));
+        let far = knots
+            .filter_map(|(knot, at)| Some((lever(knot.points[0]), (*at)?)))
+            .max_by(|(p, _), (q, _)| p.norm_squared().total_cmp(&q.norm_squared()));
+        stays.extend(far.map(|(lever, at)| at + lever.iamax()));
+        stays.into_iter().map(|k| (k, diagonal[k].max(1.0))).collect()
+    }
+}
+
+fn motions(model: &Model, fixed: Option<usize>, threads: usize) -> Vec<Motions> {
+    let of = |body: usize| {
+        let points = model.points(body);
+        if Some(body) == fixed {
+            Motions::none(3 * points.len())
+        } else {
+            Motions::new(&points, &vec![1.0; points.len()])
+        }
+    };
+    in_parts(model.bodies.len(), threads, |part| part.map(of).collect())
+}
+
+/// `make` for ranges that cover `0..count`, side by side, put together in order.
+pub(super) fn in_parts<T: Send>(
+    count: usize,
+    threads: usize,
+    make: impl Fn(Range<usize>) -> Vec<T> + Sync,
+) -> Vec<T> {
+    if threads < 2 || count < 2000 {
+        return make(0..count);
+    }
+    let share = count.div_ceil(threads);
+    std::thread::scope(|scope| {
+        let parts = (0..threads).map(|k| (k * share).min(count)..((k + 1) * share).min(count));
+        let make = &make;
+        let work: Vec<_> = parts.map(|part| scope.spawn(move || make(part))).collect();
+        let mut all = Vec::with_capacity(count);
+        for part in work {
+            match part.join() {
+                Ok(part) => all.extend(part),
+                Err(panic) => std::panic::resume_unwind(panic),
+            }
+        }
+        all
+    })
+}
+
+/// Which groups meet in a body.
+fn neighbours(
+    model: &Model,
+    knot_group: &[Option<u32>],
+    body_group: &[Option<u32>],
+    groups: usize,
+) -> Vec<Vec<u32>> {
+    let mut neighbours = vec![Vec::new(); groups];
+    for (body, knots) in model.touches.iter().enumerate() {
+        let free: Vec<u32> = knots.iter().filter_map(|&k| knot_group[k]).collect();
+        match body_group[body] {
+            Some(own) => {
+                for &knot in &free {
+                    neighbours[knot as usize].push(own);
+                    neighbours[own as usize].push(knot);
+                }
+            }
+            None => {
+                for &knot in &free {
+                    neighbours[knot as usize].extend(free.iter().filter(|&&o| o != knot));
+                }
+            }
+        }
+    }
+    for list in &mut neighbours {
+        list.sort_unstable();
+        list.dedup();
+    }
+    neighbours
+}
+
+/// A system with weights: what the factor is made from.
+struct Stiffness<'a> {
+    system: &'a System<'a>,
+    /// Weighted motions and roots of weights, if any weight is not 1.
+    weighted: Option<(Vec<Motions>, Vec<f64>)>,
+    /// What stands on the diagonal beside the blocks of bodies that are eliminated.
+    diagonal: Vec<f64>,
+}
+
+impl<'a> Stiffness<'a> {
+    fn new(system: &'a System<'a>, weights: Option<&[f64]>) -> Self {
+        let weighted = weights.map(|weights| {
+            let roots: Vec<f64> = weights.iter().map(|w| w.sqrt()).collect();
+            let of = |body: usize| {
+                let range = system.sleeve[body]..system.sleeve[body + 1];
+                if system.fixed == Some(body) {
+                    return Motions::none(3 * range.len());
+                }
+                Motions::new(&system.model.points(body), &roots[range])
+            };
+            let bodies = system.motions.len();
+            let make = |part: Range<usize>| part.map(of).collect();
+            (in_parts(bodies, system.threads, make), roots)
+        });
+        let mut diagonal = system.counts();
+        if system.floats {
+            let stays = system.stays(&diagonal);
+            diagonal.iter_mut().for_each(|d| *d *= SHIFT);
+            stays.into_iter().for_each(|(k, strength)| diagonal[k] += strength);
+        } else {
+            diagonal.iter_mut().for_each(|d| *d *= SHIFT);
+        }
+        let mut stiffness = Self { system, weighted, diagonal };
+        stiffness.add_own();
+        stiffness
+    }
+
+    /// Bodies that keep their motion: its six unknowns, and the weights on their knots.
+    fn add_own(&mut self) {
+        let system = self.system;
+        for (body, group) in system.body_group.iter().enumerate() {
+            let Some(group) = *group else { continue };
+            let place = system.symbolic.place[group as usize];
+            let own = system.symbolic.start[place]..system.symbolic.start[place + 1];
+            self.diagonal[own].fill(1.0);
+            let mut sleeve = system.sleeve[body];
+            for &knot in &system.model.touches[body] {
+                for k in 0..system.model.knots[knot].points.len() {
+                    let root = self.root(sleeve);
+                    if let Some(at) = system.knot_at[knot] {
+                        let at = at + 3 * k;
+                        self.diagonal[at..at + 3].iter_mut().for_each(|d| *d += root * root);
+                    }
+                    sleeve += 1;
+                }
+            }
+        }
+    }
+
+    fn root(&self, sleeve: usize) -> f64 {
+        self.weighted.as_ref().map_or(1.0, |(_, roots)| roots[sleeve])
+    }
+
+    fn motions(&self, body: usize) -> &Motions {
+        let all = self.weighted.as_ref().map_or(&self.system.motions, |(all, _)| all);
+        &all[body]
+    }
+
+    /// The knots of a body that are free: place of the group, row in the body, size.
+    fn free(&self, body: usize) -> Vec<(usize, usize, usize)> {
+        let system = self.system;
+        let mut row = 0;
+        let mut free = Vec::with_capacity(3);
+        for &knot in &system.model.touches[body] {
+            let size = 3 * system.model.knots[knot].points.len();
+            if let Some(group) = system.knot_group[knot] {
+                free.push((system.symbolic.place[group as usize], row, size));
+            }
+            row += size;
+        }
+        free
+    }
+
+    fn add_body(&self, body: usize, add: &mut dyn FnMut(usize, usize, &[f64])) {
+        let motions = self.motions(body);
+        let first = self.system.sleeve[body];
+        let root = |row: usize| self.root(first + row / 3);
+        let free = self.free(body);
+        let mut block = [0.0; 36];
+        for &(row_place, row, rows) in &free {
+            for &(column_place, column, columns) in &free {
+                if row_place < column_place {
+                    continue;
+                }
+                let block = &mut block[..rows * columns];
+                block.fill(0.0);
+                for k in 0..motions.rank {
+                    let motion = motions.column(k);
+                    for (c, values) in block.chunks_exact_mut(rows).enumerate() {
+                        let share = motion[column + c];
+                        let motion = &motion[row..row + rows];
+                        values.iter_mut().zip(motion).for_each(|(x, m)| *x -= m * share);
+                    }
+                }
+                for (c, values) in block.chunks_exact_mut(rows).enumerate() {
+                    if row == column {
+                        values[c] += 1.0;
+                    }
+                    let across = root(column + c);
+                    for (r, x) in values.iter_mut().enumerate() {
+                        *x *= across * root(row + r);
+                    }
+                }
+                add(row_place, column_place, block);
+            }
+        }
+    }
+
+    /// The block between a knot and a body that keeps its motion: `-S Q`.
+    fn add_link(
+        &self,
+        (body, touch): (usize, usize),
+        add: &mut dyn FnMut(usize, usize, &[f64]),
+    ) {
+        let system = self.system;
+        let knots = &system.model.touches[body];
+        let (Some(own), Some(knot)) =
+            (system.body_group[body], system.knot_group[knots[touch]])
+        else {
+            return;
+        };
+        let [own, knot] = [own, knot].map(|group| system.symbolic.place[group as usize]);
+        let points = |k: &usize| 3 * system.model.knots[*k].points.len();
+        let row: usize = knots[..touch].iter().map(points).sum();
+        let rows = points(&knots[touch]);
+        let motions = self.motions(body);
+        let entry = |r: usize, k: usize| {
+            let root = self.root(system.sleeve[body] + (row + r) / 3);
+            -root * motions.column(k)[row + r]
+        };
+        let mut block = [0.0; 36];
+        let block = &mut block[..rows * motions.rank];
+        if knot > own {
+            for (at, x) in block.iter_mut().enumerate() {
+                *x = entry(at % rows, at / rows);
+            }
+            add(knot, own, block);
+        } else {
+            for (at, x) in block.iter_mut().enumerate() {
+                *x = entry(at / motions.rank, at % motions.rank);
+            }
+            add(own, knot, block);
+        }
+    }
+}
+
+impl Entries for Stiffness<'_> {
+    fn entries(&self, supernode: usize, add: &mut dyn FnMut(usize, usize, &[f64])) {
+        let symbolic = &self.system.symbolic;
+        let node = &symbolic.supernodes[supernode];
+        for place in node.first..node.end {
+            let size = symbolic.size(place);
+            let mut block = vec![0.0; size * size];
+            for k in 0..size {
+                block[k * size + k] = self.diagonal[symbolic.start[place] + k];
+            }
+            add(place, place, &block);
+        }
+        for &(body, touch) in &self.system.jobs[supernode] {
+            match touch {
+                WHOLE => self.add_body(body as usize, add),
+                touch => self.add_link((body as usize, touch as usize), add),
+            }
+        }
+    }
+}
