@@ -89,7 +89,7 @@ pub const MODE_RESIDUAL: f64 = 1e-9;
 pub const BRACKET_WIDTH: f64 = 1.1;
 
 /// A vector that shrinks below this share of its length when made orthogonal is gone.
-pub const VANISHED: f64 = 1e-14;
+pub const VANISHED: f64 = 1e-10;
 
 /// Contact forces that miss a unit load by more than this are no equilibrium.
 pub const FORCE_BALANCE: f64 = 1e-6;

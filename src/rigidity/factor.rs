@@ -112,7 +112,7 @@ impl<'a> Factor<'a> {
 
     /// Runs `task` for the root of every branch; results in the order of branches.
     fn side_by_side<T: Send>(&self, task: impl Fn(usize) -> T + Sync) -> Vec<T> {
-        if self.threads < 2 || self.symbolic.unknowns() < 600 {
+        if self.threads < 2 || self.symbolic.unknowns() < 5000 {
             return self.branches.iter().map(|&root| task(root)).collect();
         }
         let next = std::sync::atomic::AtomicUsize::new(0);

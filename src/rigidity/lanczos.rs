@@ -47,7 +47,10 @@ pub(super) fn largest(operator: &dyn Operator, wanted: usize) -> Mat<f64> {
     let mut basis: Vec<Mat<f64>> = Vec::new();
     let mut projected: Mat<f64> = Mat::zeros(0, 0);
     for _ in 0..MOST_STEPS {
-        let fresh = orthonormal(&basis, &next).0;
+        let mut fresh = orthonormal(&basis, &next).0;
+        // Short columns have lost digits: what they were cleared of may be back.
+        operator.project(&mut fresh);
+        fresh = orthonormal(&basis, &fresh).0;
         if fresh.ncols() == 0 {
             break;
         }

@@ -1,19 +1,39 @@
-//! Rigid or flexible.
+//! Rigid or flexible: the verdict that stands before the cut files.
+//!
+//! A structure with a joint is a set of rigid bodies that share points on their node axes
+//! ([`Model`]). [`judge`] asks four things of it: how many motions meet no resistance
+//! (mobility); which meet least (the paper's algorithm, [`Paper`], and a form free of
+//! units); how far a node sways for the play of the joints, bracketed from both sides; and
+//! whether that is within the limit. [`remedies`] says what would help.
+//!
+//! First order only: a mechanism may be stiffened by prestress, and a large sway is said
+//! in words. Sources: "Freeform Shading and Lighting Systems from Planar Quads", section
+//! Stability; `docs/rigidity.md`.
+
+mod amplify;
 mod factor;
 mod finding;
+mod json;
 mod lanczos;
 mod linkage;
 mod mobility;
 mod model;
 mod motions;
 mod paper;
+mod remedy;
 mod spectrum;
+mod sway;
 mod symbolic;
 mod system;
 #[cfg(test)]
 mod tests;
+mod verdict;
 
+pub use amplify::Bracket;
 pub use finding::RigidityFinding;
 pub use linkage::read_linkage;
 pub use model::{Body, Knot, Model};
-pub use paper::{Discrepancy, Motion, Paper, Pairing};
+pub use paper::{Discrepancy, Motion, Pairing, Paper};
+pub use remedy::{Cure, Remedy, remedies};
+pub use sway::Sway;
+pub use verdict::{Fingerprint, Outcome, Question, SwayLimit, Verdict, judge};

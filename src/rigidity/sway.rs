@@ -1,0 +1,223 @@
+//! Which node sways most, against what it may: the numbers behind a verdict.
+
+use crate::geometry::{Point3, Vector3};
+use crate::rigidity::amplify::{Bracket, Bracketing, Load};
+use crate::rigidity::factor::{Factor, Singular};
+use crate::rigidity::model::Model;
+use crate::rigidity::spectrum::Modes;
+use crate::rigidity::system::System;
+use crate::rigidity::verdict::SwayLimit;
+use nalgebra::Matrix3;
+use std::collections::BTreeSet;
+
+/// Up to this many free pins the compliance of every node is solved for; beyond it the
+/// least resisted motions say where to look.
+const ALL_NODES: usize = 600;
+/// Nodes of largest compliance that are looked at.
+const TOP: usize = 5;
+/// Rounds of tightening before it is content with a wide bracket.
+const MOST_ROUNDS: usize = 60;
+/// Up to this many unknowns the bracket is tightened though the verdict stands.
+const CHEAP: usize = 6000;
+
+/// The worst node and direction found.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Sway {
+    /// The node.
+    pub node: usize,
+    /// Which way, unit vector.
+    pub direction: Vector3,
+    /// Sway over play there.
+    pub bracket: Bracket,
+    /// What it may sway, mm.
+    pub limit_mm: f64,
+    /// From the node to the nearest support, or the size of what floats, mm.
+    pub span_mm: f64,
+    /// Largest amplification over limit at any node and direction that was looked at, as
+    /// bounds, 1/mm.
+    pub demand: Bracket,
+}
+
+/// Spans of all knots: the distance to the nearest held pin, or the size of the whole.
+pub(super) fn spans(model: &Model) -> Vec<f64> {
+    let pins = || model.knots.iter().filter(|knot| knot.is_pin());
+    let held: Vec<Point3> = pins().filter(|k| k.held).map(|k| k.place()).collect();
+    if held.is_empty() {
+        let count = pins().count().max(1) as f64;
+        let centre = pins().map(|k| k.place().coords).sum::<Vector3>() / count;
+        let reach = pins().map(|k| (k.place().coords - centre).norm()).fold(0.0, f64::max);
+        return vec![2.0 * reach; model.knots.len()];
+    }
+    let nearest = |p: Point3| {
+        let off = held.iter().map(|h| (h - p).norm_squared());
+        off.fold(f64::INFINITY, f64::min).sqrt()
+    };
+    model.knots.iter().map(|knot| nearest(knot.place())).collect()
+}
+
+/// Velocity of the node of a knot.
+pub(super) fn node_velocity(system: &System, knot: usize, y: &[f64]) -> Vector3 {
+    let Some(at) = system.knot_at[knot] else { return Vector3::zeros() };
+    let share = system.model.knots[knot].share;
+    let end = |k: usize| Vector3::new(y[at + k], y[at + k + 1], y[at + k + 2]);
+    end(0) * (1.0 - share) + end(3) * share
+}
+
+/// Brackets the amplification where it is worst. `None` if no node can move.
+///
+/// # Errors
+/// [`Singular`] if a factorisation fails.
+pub(super) fn worst(
+    system: &System,
+    modes: &Modes,
+    (play, limit): (f64, SwayLimit),
+) -> Result<Option<Sway>, Singular> {
+    let factor = system.factor(None)?;
+    let rigid = if system.floats { system.rigid() } else { Vec::new() };
+    let spans = spans(system.model);
+    let wall = |knot: usize| limit.of(spans[knot]);
+    let compliances = compliances(system, &factor, &rigid, modes);
+    let chosen = chosen(system, &compliances, modes, &wall);
+    let loads = chosen.iter().flat_map(|knot| {
+        let axes = compliances.iter().find(|(k, _)| k == knot).map(|(_, m)| *m);
+        let axes = axes.unwrap_or_else(Matrix3::identity).symmetric_eigen().eigenvectors;
+        let rigid = &rigid;
+        (0..3).filter_map(move |k| {
+            Load::new(system, rigid, *knot, settled(axes.column(k).into()))
+        })
+    });
+    let mut all = Bracketing::first(system, &factor, loads.collect());
+    if all.is_empty() {
+        return Ok(None);
+    }
+    tighten(&mut all, play, &wall, system.unknowns() <= CHEAP)?;
+    let top = highest(&all, &wall);
+    let demand = |of: fn(&Bracket) -> f64| {
+        let each = all.iter().map(|b| of(&b.bracket()) / wall(b.load.knot));
+        each.fold(0.0, f64::max)
+    };
+    let worst = &all[top];
+    Ok(Some(Sway {
+        node: system.model.knots[worst.load.knot].node,
+        direction: worst.load.direction,
+        bracket: worst.bracket(),
+        limit_mm: wall(worst.load.knot),
+        span_mm: spans[worst.load.knot],
+        demand: Bracket { lower: demand(|b| b.lower), upper: demand(|b| b.upper) },
+    }))
+}
+
+/// The same direction or its opposite, whichever has its largest entry positive.
+fn settled(direction: Vector3) -> Vector3 {
+    if direction[direction.iamax()] < 0.0 { -direction } else { direction }
+}
+
+/// The bracketing of largest upper bound over limit.
+fn highest(all: &[Bracketing], wall: &dyn Fn(usize) -> f64) -> usize {
+    let demand = |k: &usize| all[*k].bracket().upper / wall(all[*k].load.knot);
+    (0..all.len()).max_by(|a, b| demand(a).total_cmp(&demand(b))).unwrap_or(0)
+}
+
+/// Tightens until the verdict stands, or what decides it is narrow.
+fn tighten(
+    all: &mut [Bracketing],
+    play: f64,
+    wall: &dyn Fn(usize) -> f64,
+    cheap: bool,
+) -> Result<(), Singular> {
+    for round in 0..MOST_ROUNDS {
+        let top = highest(all, wall);
+        let sways = |b: &Bracketing| b.bracket().lower * play > wall(b.load.knot);
+        let stands = all[top].bracket().upper * play <= wall(all[top].load.knot)
+            || all.iter().any(sways);
+        let narrow = all[top].bracket().is_narrow();
+        if narrow || (stands && !(cheap && round < MOST_ROUNDS / 4)) {
+            return Ok(());
+        }
+        all[top].tighten()?;
+    }
+    Ok(())
+}
+
+/// Compliance of nodes, the 3 × 3 block of `K⁻¹` seen from the node: knot and block.
+fn compliances(
+    system: &System,
+    factor: &Factor,
+    rigid: &[Vec<f64>],
+    modes: &Modes,
+) -> Vec<(usize, Matrix3<f64>)> {
+    let knots = 0..system.model.knots.len();
+    let free: Vec<usize> = knots
+        .filter(|&k| system.knot_at[k].is_some() && system.model.knots[k].is_pin())
+        .collect();
+    if free.len() <= ALL_NODES {
+        return free.chunks(8).flat_map(|part| solved(system, factor, rigid, part)).collect();
+    }
+    let counts = system.counts();
+    let estimate = |&knot: &usize| {
+        let mut block = Matrix3::zeros();
+        for (y, sigma) in modes.motions.iter().zip(&modes.sigma) {
+            let size: f64 = y.iter().zip(&counts).map(|(y, n)| n * y * y).sum();
+            let v = node_velocity(system, knot, y);
+            block += v * v.transpose() / (size * sigma * sigma);
+        }
+        (knot, block)
+    };
+    free.iter().map(estimate).collect()
+}
+
+fn solved(
+    system: &System,
+    factor: &Factor,
+    rigid: &[Vec<f64>],
+    knots: &[usize],
+) -> Vec<(usize, Matrix3<f64>)> {
+    let axes = [Vector3::x(), Vector3::y(), Vector3::z()];
+    let loads: Vec<Load> = knots
+        .iter()
+        .flat_map(|&k| axes.iter().filter_map(move |&d| Load::new(system, rigid, k, d)))
+        .collect();
+    let count = loads.len();
+    let mut x = vec![0.0; system.unknowns() * count];
+    for (i, row) in x.chunks_exact_mut(count).enumerate() {
+        row.iter_mut().zip(&loads).for_each(|(x, load)| *x = load.forces[i]);
+    }
+    factor.solve(&mut x, count);
+    let work = |a: usize, b: usize| -> f64 {
+        let forces = loads[a].forces.iter();
+        forces.zip(x.chunks_exact(count)).map(|(f, row)| f * row[b]).sum()
+    };
+    let block = |(k, &knot): (usize, &usize)| {
+        let block = Matrix3::from_fn(|i, j| {
+            (work(3 * k + i, 3 * k + j) + work(3 * k + j, 3 * k + i)) / 2.0
+        });
+        (knot, block)
+    };
+    knots.iter().enumerate().map(block).collect()
+}
+
+/// Where to look: the nodes of largest compliance for their limit, the one that moves most
+/// in each of the least resisted motions, and the one farthest from any support.
+fn chosen(
+    system: &System,
+    compliances: &[(usize, Matrix3<f64>)],
+    modes: &Modes,
+    wall: &dyn Fn(usize) -> f64,
+) -> BTreeSet<usize> {
+    let most = |of: &dyn Fn(usize) -> f64| {
+        let knots = compliances.iter().map(|(knot, _)| *knot);
+        knots.max_by(|&a, &b| of(a).total_cmp(&of(b)))
+    };
+    let mut chosen = BTreeSet::new();
+    chosen.extend(most(wall));
+    for y in &modes.motions {
+        chosen.extend(most(&|k| node_velocity(system, k, y).norm() / wall(k)));
+    }
+    let mut ranked: Vec<(f64, usize)> = compliances
+        .iter()
+        .map(|(knot, m)| (m.symmetric_eigenvalues().max().max(0.0).sqrt() / wall(*knot), *knot))
+        .collect();
+    ranked.sort_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));
+    chosen.extend(ranked.iter().take(TOP).map(|(_, knot)| *knot));
+    chosen
+}
