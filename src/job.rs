@@ -1,9 +1,14 @@
 //! The stages in order and nothing else.
 
-use crate::diagnostic::Finding;
+use crate::diagnostic::{Finding, Severity};
+use crate::gate::{self, Approved, Judged, Shut};
 use crate::geometry::{Contour, Point2};
+use crate::joint::Joint;
 use crate::nest::{self, Effort, Layout, NestError, Shape, Stock, Turns};
 use crate::parts::{self, Fit, FoldMarks, Making, Marking, Part};
+use crate::rigidity::{
+    self, Fingerprint, Model, Pairing, Question, RigidityFinding, SwayLimit, Verdict,
+};
 use crate::sheets::{self, Frame, Kerf, Laying, Sheet};
 use crate::structure::{Draft, Structure};
 use crate::template::Template;
@@ -16,6 +21,8 @@ pub struct Order<'a> {
     pub draft: Draft,
     /// Material, stock and joint.
     pub template: &'a Template,
+    /// How fins are joined.
+    pub joint: Joint,
     /// How hard to nest.
     pub effort: Effort,
     /// Why the structure may be flexible.
@@ -31,6 +38,8 @@ pub struct Job {
     pub accepted_flexible: Option<String>,
     /// The structure as built; `None` if the draft was none.
     pub structure: Option<Structure>,
+    /// Rigid or flexible.
+    pub verdict: Option<Verdict>,
     /// The parts in the order of assembly.
     pub parts: Vec<Part>,
     /// Stock that the layout chose from.
@@ -61,6 +70,15 @@ pub fn run(order: Order, watch: &mut dyn Watch) -> Result<Job, Interrupted> {
         }
         Err(refused) => return Ok(Job { findings: refused.findings, ..job }),
     };
+    watch.progress("rigidity", 0, 1);
+    job.judge(&structure, order.joint, template);
+    if watch.stopped() {
+        return Err(Interrupted);
+    }
+    if order.joint != Joint::Lap {
+        job.structure = Some(structure);
+        return Ok(job);
+    }
     watch.progress("parts", 0, 1);
     let name = structure.name().to_owned();
     let kerf = Kerf::from_width_mm(template.material.kerf_mm);
@@ -115,6 +133,117 @@ fn lay(
         Err(error) => job.findings.push(error.into()),
     }
     Ok(())
+}
+
+impl Job {
+    /// The sheets, if findings and verdict let them pass; the verdict must be about the
+    /// structure as it stands in the job, with this joint and template.
+    ///
+    /// # Errors
+    /// [`Shut`] says why not.
+    pub fn approved(
+        &self,
+        joint: Joint,
+        template: &Template,
+    ) -> Result<Approved<&Vec<Sheet>>, Shut> {
+        let structure = self.structure.as_ref().ok_or(Shut::Findings)?;
+        let fingerprint = Fingerprint::of(structure, joint, &template.source);
+        let judged = Judged {
+            fingerprint: &fingerprint,
+            verdict: self.verdict.as_ref(),
+            accepted: self.accepted_flexible.as_deref(),
+        };
+        gate::approve(&self.sheets, &self.findings, judged)
+    }
+
+    /// Judges the structure and notes what forbids cutting.
+    fn judge(&mut self, structure: &Structure, joint: Joint, template: &Template) {
+        let verdict = verdict(structure, joint, template, None);
+        match verdict {
+            Ok(verdict) => {
+                let accepted = self.accepted_flexible.as_deref();
+                self.findings.extend(judged(&verdict, accepted));
+                self.verdict = Some(verdict);
+            }
+            Err(finding) => self.findings.push(finding.into()),
+        }
+    }
+}
+
+/// What a structure is as a mechanism, and what was judged.
+pub fn model(
+    structure: &Structure,
+    joint: Joint,
+    template: &Template,
+) -> (Model, Fingerprint) {
+    let fingerprint = |structure| Fingerprint::of(structure, joint, &template.source);
+    match joint {
+        Joint::Lap => {
+            let (structure, unheld) = parts::lapped(structure, &fit(template));
+            (Model::of(&structure, joint, &unheld), fingerprint(&structure))
+        }
+        Joint::Hinge | Joint::Hub => {
+            let model = Model::of(structure, joint, &Default::default());
+            (model, fingerprint(structure))
+        }
+    }
+}
+
+/// What is asked about a structure: play and limit as the template says, else half the
+/// clearance and L/50.
+///
+/// # Errors
+/// A limit that cannot be read.
+pub fn question(
+    structure: &Structure,
+    template: &Template,
+) -> Result<Question, RigidityFinding> {
+    let lengths = structure.fins().iter().map(|&[i, j]| {
+        (structure.nodes()[i].position - structure.nodes()[j].position).norm()
+    });
+    let mean = lengths.sum::<f64>() / structure.fins().len().max(1) as f64;
+    let play = template.gate.play_mm.unwrap_or(template.material.clearance_mm / 2.0);
+    Ok(Question {
+        play_mm: play.max(0.0),
+        limit: template.gate.sway_limit.parse::<SwayLimit>()?,
+        modes: 6,
+        pairing: Pairing::Pin,
+        scale: 1000.0 / mean,
+    })
+}
+
+/// Judges a structure with a joint; the question is the template's unless one is given.
+///
+/// # Errors
+/// A limit that cannot be read.
+pub fn verdict(
+    structure: &Structure,
+    joint: Joint,
+    template: &Template,
+    asked: Option<&Question>,
+) -> Result<Verdict, RigidityFinding> {
+    let question = match asked {
+        Some(question) => *question,
+        None => question(structure, template)?,
+    };
+    let (model, fingerprint) = model(structure, joint, template);
+    Ok(rigidity::judge(&model, &question, fingerprint))
+}
+
+/// Findings of a verdict; what is accepted becomes a warning.
+fn judged(verdict: &Verdict, accepted: Option<&str>) -> Vec<Finding> {
+    let mut findings: Vec<Finding> =
+        verdict.findings().into_iter().map(Finding::from).collect();
+    let reason = accepted.filter(|reason| !reason.trim().is_empty());
+    let refuses = !crate::diagnostic::passes(&findings);
+    if let (Some(reason), true) = (reason, refuses) {
+        for finding in &mut findings {
+            finding.severity = finding.severity.min(Severity::Warning);
+        }
+        let (verdict, reason) = (verdict.outcome().name(), reason.to_owned());
+        findings.push(RigidityFinding::Accepted { verdict, reason }.into());
+    }
+    findings
 }
 
 /// A part as the nester sees it: the line that will be drawn.

@@ -4,28 +4,30 @@
 //!
 //! 1. [`structure`]: a [`Draft`](structure::Draft) is judged and becomes a
 //!    [`Structure`](structure::Structure): nodes with axes, planar fins, strips of fins.
-//! 2. [`parts`]: strips are unfolded, slit where they cross, spliced and marked.
-//! 3. [`nest`]: parts find their places on sheets of the stock.
-//! 4. [`sheets`]: what the laser does, kerf included, independent of any format.
-//! 5. [`gate`]: only what nothing forbids is [`Approved`](gate::Approved).
-//! 6. [`export`]: DXF, SVG, PDF and PNG. [`report`]: the manifest and the bill of parts.
+//! 2. [`rigidity`]: rigid or flexible, as a verdict.
+//! 3. [`parts`]: strips are unfolded, slit where they cross, spliced and marked.
+//! 4. [`nest`]: parts find their places on sheets of the stock.
+//! 5. [`sheets`]: what the laser does, kerf included, independent of any format.
+//! 6. [`gate`]: only what nothing forbids, the verdict first, is [`Approved`](gate::Approved).
+//! 7. [`export`]: DXF, SVG, PDF and PNG. [`report`]: the manifest and the bill of parts.
 //!
 //! [`job`] runs them; [`cli`] is the only room that touches the world. Units are
 //! millimetres and radians inside.
 //!
 //! ```
-//! use finwright::{design::examples, export, gate, job, nest::Effort, template};
+//! use finwright::{design::examples, export, gate, job, joint::Joint, nest::Effort, template};
 //!
 //! let source = template::embedded("pmma-cast-3").unwrap();
 //! let template = template::read(source, "pmma-cast-3").unwrap();
 //! let order = job::Order {
 //!     draft: (examples::named("three").unwrap().draft)(),
 //!     template: &template,
+//!     joint: Joint::Lap,
 //!     effort: Effort { trials: 1, seed: 0 },
 //!     accepted_flexible: None,
 //! };
 //! let job = job::run(order, &mut ()).unwrap();
-//! let approved = gate::approve(&job.sheets, &job.findings).unwrap();
+//! let approved = job.approved(Joint::Lap, &template).unwrap();
 //! let files = export::cut_files(&approved);
 //! assert!(files.iter().any(|(path, _)| path == "sheets/sheet-01.dxf"));
 //! ```

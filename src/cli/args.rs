@@ -1,8 +1,11 @@
 //! What was typed.
 
+use crate::cli::rigidity;
 use crate::geometry::{Point3, Vector3};
+use crate::joint::Joint;
 use crate::structure::AxisRule;
 use crate::units::Unit;
+use clap::builder::PossibleValue;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use std::path::PathBuf;
 
@@ -33,6 +36,10 @@ pub enum Command {
     /// Report everything that is wrong with a structure; write nothing
     #[command(after_help = CHECK_HELP)]
     Check(CheckArgs),
+
+    /// Say whether a structure is rigid, and what would help if it is not
+    #[command(after_help = rigidity::HELP)]
+    Rigidity(rigidity::RigidityArgs),
 
     /// Show materials and machines
     #[command(after_help = TEMPLATE_HELP)]
@@ -195,15 +202,19 @@ pub enum ExampleAction {
     },
 }
 
-/// How strips and fins are joined.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub enum Joint {
-    /// Rigid strips, half-lapped where they cross
-    Lap,
-    /// Single fins on rods
-    Hinge,
-    /// Single fins in slotted discs
-    Hub,
+impl ValueEnum for Joint {
+    fn value_variants<'a>() -> &'a [Self] {
+        &[Self::Lap, Self::Hinge, Self::Hub]
+    }
+
+    fn to_possible_value(&self) -> Option<PossibleValue> {
+        let about = match self {
+            Self::Lap => "Rigid strips, half-lapped where they cross",
+            Self::Hinge => "Single fins on rods",
+            Self::Hub => "Single fins in slotted discs",
+        };
+        Some(PossibleValue::new(self.name()).help(about))
+    }
 }
 
 /// How hard to nest.

@@ -3,6 +3,7 @@
 mod args;
 mod input;
 mod jobdir;
+mod rigidity;
 mod run;
 mod show;
 

@@ -1,16 +1,17 @@
 //! The commands, and the only place that writes files.
 
 use crate::cli::args::{
-    Cli, Command, EffortLevel, ExampleAction, InputArgs, Joint, MakeArgs, TemplateAction,
+    Cli, Command, EffortLevel, ExampleAction, InputArgs, MakeArgs, TemplateAction,
 };
 use crate::cli::input::{self, Input, InputError};
 use crate::cli::jobdir::{self, JobDirError, JobFile};
+use crate::cli::rigidity;
 use crate::cli::show::{self, Terminal, Voice};
 use crate::design::examples;
 use crate::diagnostic::{Finding, Place, passes};
 use crate::export;
-use crate::gate::approve;
 use crate::job::{self, Interrupted, Job, Order};
+use crate::joint::Joint;
 use crate::nest::Effort;
 use crate::report::{self, Source};
 use crate::structure::{Structure, write_json};
@@ -27,7 +28,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 /// How a command ended; the number is the exit code (contract §1).
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum End {
+pub(super) enum End {
     Done = 0,
     CouldNotRun = 1,
     WrongUsage = 2,
@@ -36,10 +37,12 @@ enum End {
 }
 
 /// Why a command could not run.
-enum Failure {
+pub(super) enum Failure {
     Input(InputError),
     JobDir(JobDirError),
     Interrupted,
+    /// What was wrong has been said.
+    Said(End),
 }
 
 impl From<InputError> for Failure {
@@ -71,6 +74,7 @@ pub fn run(cli: Cli) -> ExitCode {
     let end = match cli.command {
         Command::Make(args) => make(&args, voice),
         Command::Check(args) => check(&args.input, voice),
+        Command::Rigidity(args) => rigidity::rigidity(&args, voice),
         Command::Template { action } => templates(action),
         Command::Example { action } => example(action),
         Command::Completions { shell } => {
@@ -91,12 +95,17 @@ pub fn run(cli: Cli) -> ExitCode {
             let _ = writeln!(std::io::stderr(), "interrupted; nothing was written");
             End::Interrupted
         }
+        Failure::Said(end) => end,
     });
     ExitCode::from(end as u8)
 }
 
 /// Says what went wrong, always; as JSON too, if it was asked for.
-fn complain(error: &dyn Diagnostic, message: &str, json: Option<Vec<Finding>>) -> End {
+pub(super) fn complain(
+    error: &dyn Diagnostic,
+    message: &str,
+    json: Option<Vec<Finding>>,
+) -> End {
     if let Some(findings) = json {
         print(&format!("{}\n", check_json(&findings)));
     }
@@ -109,7 +118,7 @@ fn complain(error: &dyn Diagnostic, message: &str, json: Option<Vec<Finding>>) -
 }
 
 /// Prints on standard output; a reader that went away is no fault of ours.
-fn print(text: &str) -> End {
+pub(super) fn print(text: &str) -> End {
     let _ = std::io::stdout().write_all(text.as_bytes());
     End::Done
 }
@@ -138,6 +147,7 @@ fn ordered(
     let order = Order {
         draft,
         template: &template,
+        joint: args.joint,
         effort: effort(args),
         accepted_flexible: accepted_flexible.cloned(),
     };
@@ -158,35 +168,28 @@ fn effort(args: &InputArgs) -> Effort {
     Effort { trials, seed: args.seed }
 }
 
-/// A joint that cannot be made yet ends with a word about it.
-fn joint_not_built(joint: Joint) -> Option<End> {
-    let name = joint_name(joint);
-    (joint != Joint::Lap).then(|| {
+/// A joint whose parts cannot be made yet, though the verdict would allow it, ends with a
+/// word about it.
+fn joint_not_built(joint: Joint, job: &Job) -> Option<End> {
+    (joint != Joint::Lap && passes(&job.findings)).then(|| {
+        let name = joint.name();
         let _ = writeln!(
             std::io::stderr(),
-            "error: --joint {name} cannot be made yet; --joint lap can"
+            "error: parts for --joint {name} cannot be made yet; --joint lap can"
         );
         End::WrongUsage
     })
 }
 
-const fn joint_name(joint: Joint) -> &'static str {
-    match joint {
-        Joint::Lap => "lap",
-        Joint::Hinge => "hinge",
-        Joint::Hub => "hub",
-    }
-}
-
 fn make(args: &MakeArgs, voice: Voice) -> Result<End, Failure> {
-    if let Some(end) = joint_not_built(args.input.joint) {
-        return Ok(end);
-    }
     if let Some(dir) = &args.output {
         jobdir::may_be_written(dir)?;
     }
     let mut ordered = ordered(&args.input, args.accept_flexible.as_ref(), voice)?;
     voice.findings(&ordered.job.findings);
+    if let Some(end) = joint_not_built(args.input.joint, &ordered.job) {
+        return Ok(end);
+    }
     ordered.terminal.resume("export");
     let job = &ordered.job;
     let name = job.structure.as_ref().map(Structure::name).unwrap_or_default();
@@ -194,14 +197,13 @@ fn make(args: &MakeArgs, voice: Voice) -> Result<End, Failure> {
         args.output.clone().unwrap_or_else(|| Path::new("out").join(folder_name(name)));
     let manifest = ordered.manifest(&args.input);
     let mut files = ordered.files(&manifest);
-    let approved =
-        approve(&job.sheets, &job.findings).filter(|sheets| !sheets.get().is_empty());
+    let approved = job.approved(args.input.joint, &ordered.template);
     let end = match &approved {
-        Some(sheets) => {
+        Ok(sheets) if !sheets.get().is_empty() => {
             files.extend(export::cut_files(sheets).into_iter().map(named));
             End::Done
         }
-        None => {
+        _ => {
             files.extend(export::stamped_previews(&job.sheets).into_iter().map(named));
             End::Refused
         }
@@ -259,7 +261,7 @@ impl Ordered {
             template_sha256: &input::sha256(self.template.source.as_bytes()),
             seed: args.seed,
             scale: &args.scale.text,
-            joint: joint_name(args.joint),
+            joint: args.joint,
         };
         report::manifest(&self.job, &source)
     }
@@ -279,9 +281,6 @@ impl Ordered {
 }
 
 fn check(args: &InputArgs, voice: Voice) -> Result<End, Failure> {
-    if let Some(end) = joint_not_built(args.joint) {
-        return Ok(end);
-    }
     let ordered = ordered(args, None, voice)?;
     let findings = &ordered.job.findings;
     voice.findings(findings);

@@ -6,6 +6,7 @@
 
 mod finding;
 mod fit;
+mod hold;
 mod joint;
 mod mark;
 mod outline;
@@ -18,6 +19,7 @@ mod unfold;
 
 pub use finding::PartFinding;
 pub use fit::Fit;
+pub use hold::lapped;
 pub use joint::{End, Joinery, Joints, Opening, Slit, join};
 pub use mark::{FoldMarks, Marking};
 pub use outline::{Closure, Piece, outline};

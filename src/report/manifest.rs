@@ -3,6 +3,7 @@
 
 use crate::geometry::{Contour, Point2};
 use crate::job::Job;
+use crate::joint::Joint;
 use crate::nest::{NestedSheet, Stock};
 use crate::parts::{Body, FlatAxis, Opening, Part, Slit, StripBody};
 use crate::sheets::{Operation, Path, Sheet};
@@ -25,8 +26,8 @@ pub struct Source<'a> {
     pub seed: u64,
     /// Such as `1:50`.
     pub scale: &'a str,
-    /// Such as `lap`.
-    pub joint: &'a str,
+    /// How fins are joined.
+    pub joint: Joint,
 }
 
 /// The manifest of a job.
@@ -40,7 +41,7 @@ pub fn manifest(job: &Job, source: &Source) -> Value {
         "template": {"name": source.template.name, "sha256": source.template_sha256},
         "seed": source.seed,
         "scale": source.scale,
-        "joint": source.joint,
+        "joint": source.joint.name(),
         "material": {
             "name": material.name,
             "thickness": material.thickness_mm,
@@ -48,7 +49,7 @@ pub fn manifest(job: &Job, source: &Source) -> Value {
             "clearance": material.clearance_mm,
         },
         "sheet_stock": job.stock.iter().map(stock).collect::<Vec<_>>(),
-        "verdict": null,
+        "verdict": job.verdict.as_ref().map(|verdict| verdict.json(source.joint, false)),
         "accepted_flexible": job.accepted_flexible,
         "findings": job.findings,
         "parts": job.parts.iter().map(part).collect::<Vec<_>>(),

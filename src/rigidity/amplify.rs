@@ -21,16 +21,16 @@ use crate::tolerance::{BRACKET_WIDTH, FORCE_BALANCE};
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Load {
     /// The knot whose node is loaded.
-    pub knot: usize,
+    pub(super) knot: usize,
     /// Unit vector.
-    pub direction: Vector3,
+    pub(super) direction: Vector3,
     /// One number per unknown.
-    pub forces: Vec<f64>,
+    pub(super) forces: Vec<f64>,
 }
 
 impl Load {
     /// A unit load on the node of a free pin.
-    pub fn new(
+    pub(super) fn new(
         system: &System,
         rigid: &[Vec<f64>],
         knot: usize,
@@ -83,20 +83,20 @@ impl Bracket {
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Proof {
     /// The bounds.
-    pub bracket: Bracket,
+    pub(super) bracket: Bracket,
     /// Velocities of the unknowns in the motion of the lower bound, deviations at most 1.
-    pub motion: Vec<f64>,
+    pub(super) motion: Vec<f64>,
     /// Contact forces of the upper bound, three numbers per sleeve.
-    pub forces: Vec<f64>,
+    pub(super) forces: Vec<f64>,
 }
 
 /// A bracket in the making.
 pub(super) struct Bracketing<'a> {
     system: &'a System<'a>,
     /// What is asked.
-    pub load: Load,
+    pub(super) load: Load,
     /// The best so far.
-    pub proof: Proof,
+    pub(super) proof: Proof,
     weights: Vec<f64>,
     floor: f64,
 }
@@ -108,7 +108,11 @@ const LAST_FLOOR: f64 = 1e-7;
 
 impl<'a> Bracketing<'a> {
     /// First bounds of some loads at once, with the factor of the unweighted resistance.
-    pub fn first(system: &'a System<'a>, factor: &Factor, loads: Vec<Load>) -> Vec<Self> {
+    pub(super) fn first(
+        system: &'a System<'a>,
+        factor: &Factor,
+        loads: Vec<Load>,
+    ) -> Vec<Self> {
         let count = loads.len();
         let mut x = vec![0.0; system.unknowns() * count];
         for (i, row) in x.chunks_exact_mut(count.max(1)).enumerate() {
@@ -120,9 +124,8 @@ impl<'a> Bracketing<'a> {
         let sleeves = system.sleeve[system.sleeve.len() - 1];
         let begun = loads.into_iter().enumerate().map(|(k, load)| {
             let y = x.chunks_exact(count).map(|row| row[k]).collect();
-            let proof = Proof {
-                bracket: Bracket::OPEN, motion: Vec::new(), forces: Vec::new(),
-            };
+            let proof =
+                Proof { bracket: Bracket::OPEN, motion: Vec::new(), forces: Vec::new() };
             let (weights, floor) = (vec![1.0; sleeves], FIRST_FLOOR);
             let mut begun = Self { system, load, proof, weights, floor };
             begun.learn(y);
@@ -135,7 +138,7 @@ impl<'a> Bracketing<'a> {
     ///
     /// # Errors
     /// [`Singular`] if the factorisation fails.
-    pub fn tighten(&mut self) -> Result<(), Singular> {
+    pub(super) fn tighten(&mut self) -> Result<(), Singular> {
         let factor = self.system.factor(Some(&self.weights))?;
         let mut y = self.load.forces.clone();
         factor.solve(&mut y, 1);
@@ -146,8 +149,10 @@ impl<'a> Bracketing<'a> {
     /// Bounds and the next weights from a solution.
     fn learn(&mut self, y: Vec<f64>) {
         let off = self.system.weighted_deviations(&y, &self.weights);
-        let sizes: Vec<f64> =
-            off.chunks_exact(3).map(|d| d.iter().map(|x| x * x).sum::<f64>().sqrt()).collect();
+        let sizes: Vec<f64> = off
+            .chunks_exact(3)
+            .map(|d| d.iter().map(|x| x * x).sum::<f64>().sqrt())
+            .collect();
         let most = sizes.iter().copied().fold(0.0, f64::max);
         let way: f64 = y.iter().zip(&self.load.forces).map(|(y, f)| y * f).sum();
         let weighted = sizes.iter().zip(&self.weights);
@@ -179,11 +184,13 @@ impl<'a> Bracketing<'a> {
         let on_pins = self.system.scatter(forces);
         let counts = self.system.counts();
         let off = on_pins.iter().zip(&self.load.forces).zip(&counts);
-        off.filter(|(_, n)| **n > 0.0).map(|((a, b), _)| (a - b).abs()).fold(0.0, f64::max)
+        off.filter(|(_, n)| **n > 0.0)
+            .map(|((a, b), _)| (a - b).abs())
+            .fold(0.0, f64::max)
     }
 
     /// Bounds together with those of another direction or node.
-    pub fn bracket(&self) -> Bracket {
+    pub(super) fn bracket(&self) -> Bracket {
         self.proof.bracket.met(Bracket::OPEN)
     }
 }

@@ -7,11 +7,9 @@
 
 use crate::rigidity::symbolic::{Supernode, Symbolic};
 use faer::dyn_stack::{MemBuffer, MemStack};
-use faer::linalg::cholesky::llt::factor::{
-    cholesky_in_place, cholesky_in_place_scratch,
-};
-use faer::linalg::matmul::triangular::{self, BlockStructure};
+use faer::linalg::cholesky::llt::factor::{cholesky_in_place, cholesky_in_place_scratch};
 use faer::linalg::matmul::matmul;
+use faer::linalg::matmul::triangular::{self, BlockStructure};
 use faer::linalg::triangular_solve::{
     solve_lower_triangular_in_place, solve_upper_triangular_in_place,
 };
@@ -68,7 +66,7 @@ impl<'a> Factor<'a> {
     ///
     /// # Errors
     /// [`Singular`] if a pivot is not positive.
-    pub fn new(
+    pub(super) fn new(
         symbolic: &'a Symbolic,
         entries: &dyn Entries,
         threads: usize,
@@ -125,7 +123,8 @@ impl<'a> Factor<'a> {
                     mine.push((k, task(root)));
                 }
             };
-            let workers: Vec<_> = (1..self.threads).map(|_| scope.spawn(worker)).collect();
+            let workers: Vec<_> =
+                (1..self.threads).map(|_| scope.spawn(worker)).collect();
             let mut all = worker();
             for other in workers {
                 match other.join() {
@@ -141,7 +140,7 @@ impl<'a> Factor<'a> {
 
     /// Solves for `count` right-hand sides at once; `x` holds them row by row, `count`
     /// numbers per unknown, and receives the solutions.
-    pub fn solve(&self, x: &mut [f64], count: usize) {
+    pub(super) fn solve(&self, x: &mut [f64], count: usize) {
         self.forward(x, count);
         self.backward(x, count);
     }
@@ -166,7 +165,12 @@ impl<'a> Factor<'a> {
             let mut mail = Mail::new(range.clone());
             let mut work = Work::new(self.symbolic, 1);
             for s in range {
-                self.forward_one(s, (&mut part, rows.start), &mut mail, (&mut work, count));
+                self.forward_one(
+                    s,
+                    (&mut part, rows.start),
+                    &mut mail,
+                    (&mut work, count),
+                );
             }
             (root, rows, part, mail.take(root))
         });
@@ -212,11 +216,7 @@ impl<'a> Factor<'a> {
         let height = node.width + node.below;
         let l = MatRef::from_column_major_slice(&self.columns[s], height, node.width);
         let mut own = MatMut::from_row_major_slice_mut(own, node.width, count);
-        solve_lower_triangular_in_place(
-            l.subrows(0, node.width),
-            own.rb_mut(),
-            Par::Seq,
-        );
+        solve_lower_triangular_in_place(l.subrows(0, node.width), own.rb_mut(), Par::Seq);
         let mut update = MatMut::from_row_major_slice_mut(&mut below, node.below, count);
         let l = l.subrows(node.width, node.below);
         matmul(update.rb_mut(), Accum::Add, l, own.rb(), -1.0, Par::Seq);
@@ -243,7 +243,12 @@ impl<'a> Factor<'a> {
             mail.put(root, letters[branch_of[&root]].clone());
             let mut work = Work::new(self.symbolic, 1);
             for s in range.rev() {
-                self.backward_one(s, (&mut part, rows.start), &mut mail, (&mut work, count));
+                self.backward_one(
+                    s,
+                    (&mut part, rows.start),
+                    &mut mail,
+                    (&mut work, count),
+                );
             }
             (rows, part)
         });
@@ -346,11 +351,16 @@ impl<'a> Work<'a> {
         });
         for &child in &node.children {
             let letter = mail.take(child);
-            self.take_in(&symbolic.supernodes[child], &letter, (&mut columns, &mut update));
+            self.take_in(
+                &symbolic.supernodes[child],
+                &letter,
+                (&mut columns, &mut update),
+            );
         }
         let mut front = MatMut::from_column_major_slice_mut(&mut columns, height, width);
         let (mut top, mut bottom) = front.rb_mut().split_at_row_mut(width);
-        let scratch = cholesky_in_place_scratch::<f64>(width, Par::Seq, Default::default());
+        let scratch =
+            cholesky_in_place_scratch::<f64>(width, Par::Seq, Default::default());
         cholesky_in_place(
             top.rb_mut(),
             Default::default(),
@@ -383,7 +393,8 @@ impl<'a> Work<'a> {
         let mut column_of = 0;
         for (index, &(local, size)) in runs.iter().enumerate() {
             for c in local..local + size {
-                let source = &letter[column_of * child.below..(column_of + 1) * child.below];
+                let source =
+                    &letter[column_of * child.below..(column_of + 1) * child.below];
                 let (target, top) = if c < width {
                     (&mut columns[c * height..(c + 1) * height], 0)
                 } else {
@@ -392,7 +403,10 @@ impl<'a> Work<'a> {
                 };
                 let mut from: usize = runs[..index].iter().map(|run| run.1).sum();
                 for &(row, size) in &runs[index..] {
-                    add(&mut target[row - top..row - top + size], &source[from..from + size]);
+                    add(
+                        &mut target[row - top..row - top + size],
+                        &source[from..from + size],
+                    );
                     from += size;
                 }
                 column_of += 1;
@@ -405,9 +419,12 @@ impl<'a> Work<'a> {
     fn runs(&self, child: &Supernode, width: usize) -> Vec<(usize, usize)> {
         let mut runs: Vec<(usize, usize)> = Vec::with_capacity(child.rows.len());
         for &row in &child.rows {
-            let (local, size) = (self.local(row as usize), self.symbolic.size(row as usize));
+            let (local, size) =
+                (self.local(row as usize), self.symbolic.size(row as usize));
             match runs.last_mut() {
-                Some(last) if last.0 + last.1 == local && local != width => last.1 += size,
+                Some(last) if last.0 + last.1 == local && local != width => {
+                    last.1 += size
+                }
                 _ => runs.push((local, size)),
             }
         }

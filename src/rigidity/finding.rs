@@ -49,7 +49,9 @@ pub enum RigidityFinding {
     )]
     NoSuchBody { pin: usize, body: usize, bodies: usize },
 
-    #[error("pin {pin} joins the bodies {bodies:?}: two or more different ones are needed")]
+    #[error(
+        "pin {pin} joins the bodies {bodies:?}: two or more different ones are needed"
+    )]
     #[diagnostic(
         code(rigidity::pin_bodies),
         help("list each body once; leave out a pin that joins nothing")
@@ -105,7 +107,9 @@ pub enum RigidityFinding {
     #[diagnostic(
         code(rigidity::grey),
         severity(Warning),
-        help("a play of {pass_mm:.3} mm would pass without doubt; tighten `clearance_mm`")
+        help(
+            "a play of {pass_mm:.3} mm would pass without doubt; tighten `clearance_mm`"
+        )
     )]
     Grey { play_mm: f64, node: usize, sway: String, limit_mm: f64, pass_mm: f64 },
 
@@ -117,7 +121,9 @@ pub enum RigidityFinding {
     )]
     Accepted { verdict: &'static str, reason: String },
 
-    #[error("the bounds of the sway contradict each other: {lower:.3e} above {upper:.3e}")]
+    #[error(
+        "the bounds of the sway contradict each other: {lower:.3e} above {upper:.3e}"
+    )]
     #[diagnostic(
         code(rigidity::contradiction),
         help("the structure is too near a mechanism to be judged; treat it as one")
@@ -127,7 +133,9 @@ pub enum RigidityFinding {
     #[error("the sway limit {text:?} is neither a length in mm nor like L/50")]
     #[diagnostic(
         code(rigidity::bad_limit),
-        help("write a number of mm, or L/50 for a fiftieth of the distance to a support")
+        help(
+            "write a number of mm, or L/50 for a fiftieth of the distance to a support"
+        )
     )]
     BadLimit { text: String },
 }
@@ -135,7 +143,9 @@ pub enum RigidityFinding {
 impl Located for RigidityFinding {
     fn place(&self) -> Place {
         match self {
-            Self::BadLinkage { line, .. } => Place { line: Some(*line), ..Place::default() },
+            Self::BadLinkage { line, .. } => {
+                Place { line: Some(*line), ..Place::default() }
+            }
             Self::NotFinite { pin }
             | Self::ZeroAxis { pin }
             | Self::NoSuchBody { pin, .. }

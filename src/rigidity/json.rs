@@ -28,7 +28,7 @@ fn bracket(bracket: Option<Bracket>, by: f64) -> Value {
 
 impl Verdict {
     /// As `rigidity --json` prints it; `per_hinge` adds the list of all hinges.
-    pub fn json(&self, joint: Option<Joint>, per_hinge: bool) -> Value {
+    pub fn json(&self, joint: impl Into<Option<Joint>>, per_hinge: bool) -> Value {
         // A mechanism sways without end: there is no number for it.
         let sway = self.sway.as_ref().filter(|_| self.outcome() != Outcome::Mechanism);
         let amplification = sway.map(|sway| sway.bracket);
@@ -38,7 +38,7 @@ impl Verdict {
         let moves = self.outcome() == Outcome::Mechanism || sway.is_some();
         let amplification = if moves { amplification } else { Some(still) };
         json!({
-            "joint": joint.map(Joint::name),
+            "joint": joint.into().map(Joint::name),
             "bodies": self.bodies,
             "pins": self.pins,
             "mobility": self.mobility,

@@ -101,8 +101,8 @@ impl Ritz {
         n >= wanted
             && (0..wanted).all(|k| {
                 let residual = (0..rest.nrows()).map(|i| {
-                    let terms = (0..last)
-                        .map(|j| rest[(i, j)] * self.vectors[(n - last + j, k)]);
+                    let terms =
+                        (0..last).map(|j| rest[(i, j)] * self.vectors[(n - last + j, k)]);
                     terms.sum::<f64>()
                 });
                 let residual = residual.map(|r| r * r).sum::<f64>().sqrt();
@@ -131,7 +131,14 @@ pub(super) fn clear(basis: &[Mat<f64>], block: &mut Mat<f64>) -> Mat<f64> {
         for part in basis {
             let mut shares = Mat::zeros(part.ncols(), block.ncols());
             let across = part.transpose();
-            matmul(shares.as_mut(), Accum::Replace, across, block.as_ref(), 1.0, Par::Seq);
+            matmul(
+                shares.as_mut(),
+                Accum::Replace,
+                across,
+                block.as_ref(),
+                1.0,
+                Par::Seq,
+            );
             let (part_ref, shares_ref) = (part.as_ref(), shares.as_ref());
             matmul(block.as_mut(), Accum::Add, part_ref, shares_ref, -1.0, Par::Seq);
             let mut into = all.subrows_mut(from, part.ncols());
@@ -144,10 +151,7 @@ pub(super) fn clear(basis: &[Mat<f64>], block: &mut Mat<f64>) -> Mat<f64> {
 
 /// Orthonormal columns that span what `block` has beside the basis, and the triangular
 /// factor; columns that vanish are left out.
-pub(super) fn orthonormal(
-    basis: &[Mat<f64>],
-    block: &Mat<f64>,
-) -> (Mat<f64>, Mat<f64>) {
+pub(super) fn orthonormal(basis: &[Mat<f64>], block: &Mat<f64>) -> (Mat<f64>, Mat<f64>) {
     let columns = block.ncols();
     let largest = block.norm_l2();
     let mut made: Vec<Mat<f64>> = Vec::new();

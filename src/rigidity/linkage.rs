@@ -39,14 +39,15 @@ pub fn read_linkage(text: &str) -> Result<Model, Vec<RigidityFinding>> {
     if !findings.is_empty() {
         return Err(findings);
     }
-    let knot = |(pin, (place, axis, bodies)): (usize, ([f64; 3], [f64; 3], Vec<usize>))| {
-        let half = Vector3::from(axis).normalize() * file.r;
-        let place = Point3::from(place);
-        let mut bodies = bodies;
-        bodies.sort_unstable();
-        let points = vec![place - half, place + half];
-        Knot { node: pin, points, bodies, held: false, share: 0.5 }
-    };
+    let knot =
+        |(pin, (place, axis, bodies)): (usize, ([f64; 3], [f64; 3], Vec<usize>))| {
+            let half = Vector3::from(axis).normalize() * file.r;
+            let place = Point3::from(place);
+            let mut bodies = bodies;
+            bodies.sort_unstable();
+            let points = vec![place - half, place + half];
+            Knot { node: pin, points, bodies, held: false, share: 0.5 }
+        };
     let knots = file.pins.into_iter().enumerate().map(knot).collect();
     Ok(Model::new((0..file.bodies).map(Body::Link).collect(), knots))
 }

@@ -79,7 +79,8 @@ fn null_space(system: &System, factor: &Factor) -> Vec<Vec<f64>> {
     }
     let roots = &inverse.roots;
     let unscaled = |block: &Mat<f64>, k: usize| {
-        let entry = |(i, r): (usize, &f64)| if *r > 0.0 { block[(i, k)] / r } else { 0.0 };
+        let entry =
+            |(i, r): (usize, &f64)| if *r > 0.0 { block[(i, k)] / r } else { 0.0 };
         roots.iter().enumerate().map(entry).collect()
     };
     found

@@ -34,6 +34,6 @@ pub use finding::RigidityFinding;
 pub use linkage::read_linkage;
 pub use model::{Body, Knot, Model};
 pub use paper::{Discrepancy, Motion, Pairing, Paper};
-pub use remedy::{Cure, Remedy, remedies};
+pub use remedy::{Cure, Remedy, in_words, remedies};
 pub use sway::Sway;
 pub use verdict::{Fingerprint, Outcome, Question, SwayLimit, Verdict, judge};

@@ -108,8 +108,7 @@ impl Model {
                 continue;
             }
             let at = &structure.nodes()[node];
-            let (points, share) =
-                (vec![at.bottom(), at.top()], at.below / at.height());
+            let (points, share) = (vec![at.bottom(), at.top()], at.below / at.height());
             knots.push(Knot { node, points, bodies, held, share });
         }
         knots.extend(slots);
@@ -212,7 +211,13 @@ fn add_hubs(structure: &Structure, bodies: &mut Vec<Body>, on: &mut On) -> Vec<K
             let out = (at.height() / 2.0).min(length / 3.0);
             let point = at.position + structure.direction(node, to) * out;
             let bodies = vec![fin, hub];
-            slots.push(Knot { node, points: vec![point], bodies, held: false, share: 0.0 });
+            slots.push(Knot {
+                node,
+                points: vec![point],
+                bodies,
+                held: false,
+                share: 0.0,
+            });
         }
         bodies.push(Body::Hub(node));
         fins.push(hub);

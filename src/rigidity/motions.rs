@@ -10,25 +10,25 @@ use crate::tolerance::NO_ROTATION;
 /// Orthonormal columns: velocities of a body's points under its rigid motions, each
 /// velocity multiplied by the root of the point's weight.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Motions {
+pub(super) struct Motions {
     /// Three per point.
-    pub rows: usize,
+    pub(super) rows: usize,
     /// How many motions can be told apart at these points, 0 to 6.
-    pub rank: usize,
+    pub(super) rank: usize,
     /// Column by column, `rows * rank` numbers.
-    pub columns: Vec<f64>,
+    pub(super) columns: Vec<f64>,
     /// For each column the motion `(C, C̄)` that makes it: `V(q) = C × q + C̄`.
-    pub twists: Vec<[f64; 6]>,
+    pub(super) twists: Vec<[f64; 6]>,
 }
 
 impl Motions {
     /// No motion: the body is held.
-    pub fn none(rows: usize) -> Self {
+    pub(super) fn none(rows: usize) -> Self {
         Self { rows, rank: 0, columns: Vec::new(), twists: Vec::new() }
     }
 
     /// The motions of a body with these points, in mm; `roots` are roots of weights.
-    pub fn new(points: &[Point3], roots: &[f64]) -> Self {
+    pub(super) fn new(points: &[Point3], roots: &[f64]) -> Self {
         let total: f64 = roots.iter().map(|r| r * r).sum();
         if points.is_empty() || total <= 0.0 {
             return Self::none(3 * points.len());
@@ -97,12 +97,12 @@ impl Motions {
     }
 
     /// One column.
-    pub fn column(&self, k: usize) -> &[f64] {
+    pub(super) fn column(&self, k: usize) -> &[f64] {
         &self.columns[k * self.rows..(k + 1) * self.rows]
     }
 
     /// Shares of `values` in each column.
-    pub fn shares(&self, values: &[f64]) -> [f64; 6] {
+    pub(super) fn shares(&self, values: &[f64]) -> [f64; 6] {
         let mut shares = [0.0; 6];
         for (k, share) in shares.iter_mut().enumerate().take(self.rank) {
             *share = self.column(k).iter().zip(values).map(|(a, b)| a * b).sum();
@@ -111,7 +111,7 @@ impl Motions {
     }
 
     /// What is left of `values` when the nearest rigid motion is taken away.
-    pub fn clear_values(&self, values: &mut [f64]) {
+    pub(super) fn clear_values(&self, values: &mut [f64]) {
         let shares = self.shares(values);
         for (k, share) in shares.iter().enumerate().take(self.rank) {
             values.iter_mut().zip(self.column(k)).for_each(|(x, b)| *x -= share * b);

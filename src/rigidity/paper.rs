@@ -235,8 +235,9 @@ impl Matrix<'_> {
             for difference in self.pairing.differences(knot.bodies.len()) {
                 for &q in &knot.points {
                     let terms = difference.iter();
-                    let off: Vector3 =
-                        terms.map(|(i, s)| velocity(&twists[knot.bodies[*i]], q) * *s).sum();
+                    let off: Vector3 = terms
+                        .map(|(i, s)| velocity(&twists[knot.bodies[*i]], q) * *s)
+                        .sum();
                     all.extend_from_slice(off.as_slice());
                 }
             }
@@ -277,9 +278,14 @@ impl Matrix<'_> {
         if rows == 0 {
             return (Vec::new(), Vec::new(), 0.0);
         }
-        let matrix = Mat::from_fn(rows.max(n), n, |i, j| {
-            if i < rows { columns[j][i] } else { 0.0 }
-        });
+        let matrix =
+            Mat::from_fn(
+                rows.max(n),
+                n,
+                |i, j| {
+                    if i < rows { columns[j][i] } else { 0.0 }
+                },
+            );
         let Ok(svd) = matrix.thin_svd() else { return (Vec::new(), Vec::new(), 0.0) };
         let spins: usize =
             (1..self.model.bodies.len()).map(|b| 6 - free_rank(self.model, b)).sum();

@@ -50,7 +50,8 @@ pub fn remedies(model: &Model, question: &Question) -> Vec<Remedy> {
 }
 
 /// A choice of the next step from motions with weights, and the model after it.
-type Step = dyn Fn(&System, &[(f64, Vec<f64>)], &BTreeSet<Choice>) -> Option<(Choice, Model)>;
+type Step =
+    dyn Fn(&System, &[(f64, Vec<f64>)], &BTreeSet<Choice>) -> Option<(Choice, Model)>;
 
 /// A knot, and the bodies to weld there.
 type Choice = (usize, Option<[usize; 2]>);
@@ -95,7 +96,11 @@ fn effect(model: &Model, question: &Question, (node, cure): (usize, Cure)) -> Re
     let threads = std::thread::available_parallelism().map_or(1, usize::from);
     let system = System::new(model, None, threads);
     let mut remedy = Remedy {
-        node, cure, amplification_after: None, mobility_after: 0, passes: false,
+        node,
+        cure,
+        amplification_after: None,
+        mobility_after: 0,
+        passes: false,
     };
     let Ok(modes) = least(&system, MODES) else { return remedy };
     let Ok(exact) = mobility(&system, &modes) else { return remedy };
@@ -165,7 +170,8 @@ fn fix(
 ) -> Option<(Choice, Model)> {
     let model = system.model;
     let free = |k: &usize| model.knots[*k].is_pin() && system.knot_at[*k].is_some();
-    let free = (0..model.knots.len()).filter(free).filter(|k| !taken.contains(&(*k, None)));
+    let free =
+        (0..model.knots.len()).filter(free).filter(|k| !taken.contains(&(*k, None)));
     let gain = |knot: usize| -> f64 {
         let each = motions.iter();
         each.map(|(w, y)| w * node_velocity(system, knot, y).norm_squared()).sum()
@@ -174,4 +180,45 @@ fn fix(
     let best = gains.max_by(|a, b| a.0.total_cmp(&b.0).then(b.1.cmp(&a.1)))?;
     let node = model.knots[best.1].node;
     Some(((best.1, None), model.clone().with_held(node)))
+}
+
+/// Remedies as lines of text: how many steps of each kind it takes, and the first of them.
+pub fn in_words(remedies: &[Remedy], model: &Model) -> Vec<String> {
+    let kind = |fix: bool| {
+        let steps = remedies.iter().filter(move |r| (r.cure == Cure::Fix) == fix);
+        steps.collect::<Vec<_>>()
+    };
+    let mut lines = Vec::new();
+    for (steps, what) in [(kind(false), "joints made stiff"), (kind(true), "nodes held")]
+    {
+        let Some(last) = steps.last() else { continue };
+        let end = if last.passes { "it is rigid" } else { "it is not rigid yet" };
+        lines.push(format!("with {} {what} {end}:", steps.len()));
+        lines.extend(steps.iter().take(SAID).map(|step| said(step, model)));
+        if steps.len() > SAID {
+            lines.push(format!(
+                "  ... and {} more (--json lists all)",
+                steps.len() - SAID
+            ));
+        }
+    }
+    lines
+}
+
+/// Steps that are written out.
+const SAID: usize = 8;
+
+fn said(step: &Remedy, model: &Model) -> String {
+    let node = step.node;
+    let what = match step.cure {
+        Cure::Weld([a, b]) => {
+            let [a, b] = [a, b].map(|body| model.bodies[body]);
+            format!("join {a} and {b} at node {node} stiffly")
+        }
+        Cure::Fix => format!("hold node {node}"),
+    };
+    match step.amplification_after {
+        Some(sway) => format!("  {what}: {sway:.1} mm of sway per mm of play"),
+        None => format!("  {what}: {} motions left", step.mobility_after),
+    }
 }

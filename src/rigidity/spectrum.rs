@@ -84,9 +84,8 @@ impl<'a> Inverse<'a> {
         let mut rigid = Vec::new();
         if system.floats {
             let motions = system.rigid();
-            let scaled = Mat::from_fn(roots.len(), motions.len(), |i, k| {
-                motions[k][i] * roots[i]
-            });
+            let scaled =
+                Mat::from_fn(roots.len(), motions.len(), |i, k| motions[k][i] * roots[i]);
             rigid.push(lanczos::orthonormal(&[], &scaled).0);
         }
         Self { system, factor, roots, rigid }
@@ -95,7 +94,9 @@ impl<'a> Inverse<'a> {
     /// Deviations of the sleeves in the motion of a column.
     pub(super) fn deviations(&self, block: &Mat<f64>, k: usize) -> Vec<f64> {
         let y: Vec<f64> = (0..block.nrows())
-            .map(|i| if self.roots[i] > 0.0 { block[(i, k)] / self.roots[i] } else { 0.0 })
+            .map(
+                |i| if self.roots[i] > 0.0 { block[(i, k)] / self.roots[i] } else { 0.0 },
+            )
             .collect();
         self.system.deviations(&y)
     }

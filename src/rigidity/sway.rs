@@ -45,7 +45,8 @@ pub(super) fn spans(model: &Model) -> Vec<f64> {
     if held.is_empty() {
         let count = pins().count().max(1) as f64;
         let centre = pins().map(|k| k.place().coords).sum::<Vector3>() / count;
-        let reach = pins().map(|k| (k.place().coords - centre).norm()).fold(0.0, f64::max);
+        let reach =
+            pins().map(|k| (k.place().coords - centre).norm()).fold(0.0, f64::max);
         return vec![2.0 * reach; model.knots.len()];
     }
     let nearest = |p: Point3| {
@@ -151,7 +152,10 @@ fn compliances(
         .filter(|&k| system.knot_at[k].is_some() && system.model.knots[k].is_pin())
         .collect();
     if free.len() <= ALL_NODES {
-        return free.chunks(8).flat_map(|part| solved(system, factor, rigid, part)).collect();
+        return free
+            .chunks(8)
+            .flat_map(|part| solved(system, factor, rigid, part))
+            .collect();
     }
     let counts = system.counts();
     let estimate = |&knot: &usize| {
@@ -215,7 +219,9 @@ fn chosen(
     }
     let mut ranked: Vec<(f64, usize)> = compliances
         .iter()
-        .map(|(knot, m)| (m.symmetric_eigenvalues().max().max(0.0).sqrt() / wall(*knot), *knot))
+        .map(|(knot, m)| {
+            (m.symmetric_eigenvalues().max().max(0.0).sqrt() / wall(*knot), *knot)
+        })
         .collect();
     ranked.sort_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));
     chosen.extend(ranked.iter().take(TOP).map(|(_, knot)| *knot));

@@ -10,26 +10,26 @@ use feral_amd::{CscPattern, amd_order};
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Supernode {
     /// Its first group, by place in the order.
-    pub first: usize,
+    pub(super) first: usize,
     /// One after its last group.
-    pub end: usize,
+    pub(super) end: usize,
     /// How many unknowns it eliminates.
-    pub width: usize,
+    pub(super) width: usize,
     /// Groups after `end` that it touches, ascending.
-    pub rows: Vec<u32>,
+    pub(super) rows: Vec<u32>,
     /// How many unknowns these have.
-    pub below: usize,
+    pub(super) below: usize,
     /// The supernode that takes in its update.
-    pub parent: Option<usize>,
+    pub(super) parent: Option<usize>,
     /// Supernodes whose updates it takes in.
-    pub children: Vec<usize>,
+    pub(super) children: Vec<usize>,
     /// The first supernode of its subtree; a subtree is a range.
-    pub leaf: usize,
+    pub(super) leaf: usize,
 }
 
 impl Supernode {
     /// Work of its elimination, about.
-    pub fn work(&self) -> f64 {
+    pub(super) fn work(&self) -> f64 {
         self.width as f64 * ((self.width + self.below) as f64).powi(2)
     }
 }
@@ -38,19 +38,19 @@ impl Supernode {
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Symbolic {
     /// For each group its place in the order.
-    pub place: Vec<usize>,
+    pub(super) place: Vec<usize>,
     /// By place, the first unknown of each group; one more entry at the end.
-    pub start: Vec<usize>,
+    pub(super) start: Vec<usize>,
     /// In an order in which children come first.
-    pub supernodes: Vec<Supernode>,
+    pub(super) supernodes: Vec<Supernode>,
     /// By place of a group, its supernode.
-    pub owner: Vec<u32>,
+    pub(super) owner: Vec<u32>,
 }
 
 impl Symbolic {
     /// Analyses groups of these sizes that touch each other as `neighbours` lists (both
     /// ways, without the group itself, each once).
-    pub fn new(sizes: &[usize], neighbours: &[Vec<u32>]) -> Self {
+    pub(super) fn new(sizes: &[usize], neighbours: &[Vec<u32>]) -> Self {
         let order = postordered(minimum_degree(neighbours), neighbours);
         let mut place = vec![0; order.len()];
         for (k, &group) in order.iter().enumerate() {
@@ -79,23 +79,23 @@ impl Symbolic {
     }
 
     /// How many unknowns there are.
-    pub fn unknowns(&self) -> usize {
+    pub(super) fn unknowns(&self) -> usize {
         self.start[self.start.len() - 1]
     }
 
     /// Numbers stored in the factor.
-    pub fn stored(&self) -> usize {
+    pub(super) fn stored(&self) -> usize {
         self.supernodes.iter().map(|s| s.width * (s.width + s.below)).sum()
     }
 
     /// Unknowns of the group at a place.
-    pub fn size(&self, place: usize) -> usize {
+    pub(super) fn size(&self, place: usize) -> usize {
         self.start[place + 1] - self.start[place]
     }
 
     /// Supernodes whose subtrees can be worked on side by side, the largest work first.
     /// Depends on the matrix only, so that results do not depend on the machine.
-    pub fn branches(&self) -> Vec<usize> {
+    pub(super) fn branches(&self) -> Vec<usize> {
         let mut work: Vec<f64> = self.supernodes.iter().map(Supernode::work).collect();
         for s in 0..work.len() {
             if let Some(parent) = self.supernodes[s].parent {
@@ -248,7 +248,14 @@ fn supernodes(
         let width = size(k);
         let (parent, children) = (None, Vec::new());
         let node = Supernode {
-            first: k, end: k + 1, width, rows, below, parent, children, leaf: 0,
+            first: k,
+            end: k + 1,
+            width,
+            rows,
+            below,
+            parent,
+            children,
+            leaf: 0,
         };
         merged.push((node, 0));
     }
@@ -265,8 +272,9 @@ fn merge_last(merged: &mut Vec<(Supernode, usize)>) {
             .first()
             .is_some_and(|&row| (parent.first..parent.end).contains(&(row as usize)));
         let height = parent.width + parent.below;
-        let zeros =
-            *child_zeros + *parent_zeros + child.width * (height - child.below.min(height));
+        let zeros = *child_zeros
+            + *parent_zeros
+            + child.width * (height - child.below.min(height));
         let width = child.width + parent.width;
         let share = zeros as f64 / (width * (width + parent.below)) as f64;
         let allowed = match width {
@@ -295,10 +303,18 @@ mod tests {
         let cells = (0..n).flat_map(|j| (0..n).map(move |i| (i, j)));
         let around = |(i, j): (usize, usize)| {
             let mut list = Vec::new();
-            if i > 0 { list.push(at(i - 1, j)); }
-            if j > 0 { list.push(at(i, j - 1)); }
-            if i + 1 < n { list.push(at(i + 1, j)); }
-            if j + 1 < n { list.push(at(i, j + 1)); }
+            if i > 0 {
+                list.push(at(i - 1, j));
+            }
+            if j > 0 {
+                list.push(at(i, j - 1));
+            }
+            if i + 1 < n {
+                list.push(at(i + 1, j));
+            }
+            if j + 1 < n {
+                list.push(at(i, j + 1));
+            }
             list
         };
         cells.map(around).collect()

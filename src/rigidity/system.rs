@@ -20,26 +20,26 @@ const MOST_ROWS: usize = 18;
 /// The unknowns of a model, their order, and where each body's resistance goes.
 pub(super) struct System<'a> {
     /// The model.
-    pub model: &'a Model,
+    pub(super) model: &'a Model,
     /// The motions of each body, all weights 1; none for a body that is fixed.
-    pub motions: Vec<Motions>,
+    pub(super) motions: Vec<Motions>,
     /// A body that the ground holds.
     fixed: Option<usize>,
     /// For each knot its first unknown, unless it is held.
-    pub knot_at: Vec<Option<usize>>,
+    pub(super) knot_at: Vec<Option<usize>>,
     /// For each knot its group.
     knot_group: Vec<Option<u32>>,
     /// For each body its group, if it keeps its motion.
     body_group: Vec<Option<u32>>,
     /// The fixed part of the factorisation.
-    pub symbolic: Symbolic,
+    pub(super) symbolic: Symbolic,
     /// By supernode, bodies to add there; with the place of one of its knots for bodies
     /// that keep their motion.
     jobs: Vec<Vec<(u32, u32)>>,
     /// By body, the first of its sleeves (one per knot and point); one more at the end.
-    pub sleeve: Vec<usize>,
+    pub(super) sleeve: Vec<usize>,
     /// Whether the six rigid motions of the whole are free.
-    pub floats: bool,
+    pub(super) floats: bool,
     threads: usize,
 }
 
@@ -47,7 +47,7 @@ const WHOLE: u32 = u32::MAX;
 
 impl<'a> System<'a> {
     /// Sets the unknowns of a model up; `fixed` is a body to hold beside its held knots.
-    pub fn new(model: &'a Model, fixed: Option<usize>, threads: usize) -> Self {
+    pub(super) fn new(model: &'a Model, fixed: Option<usize>, threads: usize) -> Self {
         let motions = motions(model, fixed, threads);
         let rows = |body: usize| motions[body].rows;
         let mut sizes = Vec::new();
@@ -73,8 +73,17 @@ impl<'a> System<'a> {
         let floats = !model.is_supported() && fixed.is_none();
         let jobs = Vec::new();
         let mut system = Self {
-            model, motions, fixed, knot_at, knot_group, body_group, symbolic, jobs, sleeve,
-            floats, threads,
+            model,
+            motions,
+            fixed,
+            knot_at,
+            knot_group,
+            body_group,
+            symbolic,
+            jobs,
+            sleeve,
+            floats,
+            threads,
         };
         system.jobs = system.jobs();
         system
@@ -104,17 +113,17 @@ impl<'a> System<'a> {
     }
 
     /// The body that is held beside the held knots.
-    pub fn fixed(&self) -> Option<usize> {
+    pub(super) fn fixed(&self) -> Option<usize> {
         self.fixed
     }
 
     /// How many unknowns there are.
-    pub fn unknowns(&self) -> usize {
+    pub(super) fn unknowns(&self) -> usize {
         self.symbolic.unknowns()
     }
 
     /// How many bodies sit on each unknown; none on those that are a body's own.
-    pub fn counts(&self) -> Vec<f64> {
+    pub(super) fn counts(&self) -> Vec<f64> {
         let mut counts = vec![0.0; self.unknowns()];
         for (knot, at) in self.model.knots.iter().zip(&self.knot_at) {
             if let Some(at) = *at {
@@ -125,7 +134,7 @@ impl<'a> System<'a> {
     }
 
     /// Velocities at the points of a body.
-    pub fn gather(&self, body: usize, y: &[f64], into: &mut Vec<f64>) {
+    pub(super) fn gather(&self, body: usize, y: &[f64], into: &mut Vec<f64>) {
         into.clear();
         for &knot in &self.model.touches[body] {
             let size = 3 * self.model.knots[knot].points.len();
@@ -137,7 +146,7 @@ impl<'a> System<'a> {
     }
 
     /// How far each sleeve leaves its pin, three numbers per sleeve: `(I - QQᵀ) y`.
-    pub fn deviations(&self, y: &[f64]) -> Vec<f64> {
+    pub(super) fn deviations(&self, y: &[f64]) -> Vec<f64> {
         let mut all = Vec::with_capacity(3 * self.sleeve[self.sleeve.len() - 1]);
         let mut values = Vec::new();
         for (body, motions) in self.motions.iter().enumerate() {
@@ -149,7 +158,7 @@ impl<'a> System<'a> {
     }
 
     /// How far each sleeve leaves its pin when bodies follow the heavier sleeves more.
-    pub fn weighted_deviations(&self, y: &[f64], weights: &[f64]) -> Vec<f64> {
+    pub(super) fn weighted_deviations(&self, y: &[f64], weights: &[f64]) -> Vec<f64> {
         let bodies = 0..self.motions.len();
         let roots: Vec<f64> = weights.iter().map(|w| w.sqrt()).collect();
         let of = |body: usize| {
@@ -173,7 +182,7 @@ impl<'a> System<'a> {
     }
 
     /// Adds up sleeve values on the unknowns: the transpose of gathering.
-    pub fn scatter(&self, sleeves: &[f64]) -> Vec<f64> {
+    pub(super) fn scatter(&self, sleeves: &[f64]) -> Vec<f64> {
         let mut y = vec![0.0; self.unknowns()];
         let mut from = 0;
         for knots in &self.model.touches {
@@ -190,7 +199,7 @@ impl<'a> System<'a> {
     }
 
     /// Six orthonormal rigid motions of the whole, over all unknowns of knots.
-    pub fn rigid(&self) -> Vec<Vec<f64>> {
+    pub(super) fn rigid(&self) -> Vec<Vec<f64>> {
         let knots = self.model.knots.iter().zip(&self.knot_at);
         let free: Vec<(Point3, usize)> = knots
             .filter_map(|(knot, at)| Some((knot, (*at)?)))
@@ -214,20 +223,24 @@ impl<'a> System<'a> {
     ///
     /// # Errors
     /// [`Singular`] if a motion meets no resistance even with the shift.
-    pub fn factor(&self, weights: Option<&[f64]>) -> Result<Factor<'_>, Singular> {
+    pub(super) fn factor(&self, weights: Option<&[f64]>) -> Result<Factor<'_>, Singular> {
         let stiffness = Stiffness::new(self, weights);
         Factor::new(&self.symbolic, &stiffness, self.threads)
     }
 
     /// Six unknowns that hold the whole still and strain nothing, and how strongly.
     fn stays(&self, diagonal: &[f64]) -> Vec<(usize, f64)> {
-        let free = |k: &usize| self.knot_at[*k].is_some() && self.model.knots[*k].is_pin();
-        let Some(first) = (0..self.model.knots.len()).find(free) else { return Vec::new() };
+        let free =
+            |k: &usize| self.knot_at[*k].is_some() && self.model.knots[*k].is_pin();
+        let Some(first) = (0..self.model.knots.len()).find(free) else {
+            return Vec::new();
+        };
         let Some(at) = self.knot_at[first] else { return Vec::new() };
         let [a, b] = [0, 1].map(|k| self.model.knots[first].points[k]);
         let axis = (b - a).normalize();
         let along = axis.iamax();
-        let mut stays: Vec<usize> = (at..at + 6).filter(|&k| k != at + 3 + along).collect();
+        let mut stays: Vec<usize> =
+            (at..at + 6).filter(|&k| k != at + 3 + along).collect();
         let knots = self.model.knots.iter().zip(&self.knot_at);
         let lever = |p: Point3| axis.cross(&(p - a));
         let far = knots
@@ -261,7 +274,8 @@ pub(super) fn in_parts<T: Send>(
     }
     let share = count.div_ceil(threads);
     std::thread::scope(|scope| {
-        let parts = (0..threads).map(|k| (k * share).min(count)..((k + 1) * share).min(count));
+        let parts =
+            (0..threads).map(|k| (k * share).min(count)..((k + 1) * share).min(count));
         let make = &make;
         let work: Vec<_> = parts.map(|part| scope.spawn(move || make(part))).collect();
         let mut all = Vec::with_capacity(count);
@@ -357,7 +371,9 @@ impl<'a> Stiffness<'a> {
                     let root = self.root(sleeve);
                     if let Some(at) = system.knot_at[knot] {
                         let at = at + 3 * k;
-                        self.diagonal[at..at + 3].iter_mut().for_each(|d| *d += root * root);
+                        self.diagonal[at..at + 3]
+                            .iter_mut()
+                            .for_each(|d| *d += root * root);
                     }
                     sleeve += 1;
                 }

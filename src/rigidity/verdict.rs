@@ -4,7 +4,7 @@ use crate::joint::Joint;
 use crate::rigidity::finding::RigidityFinding;
 use crate::rigidity::mobility::{Mobility, mobility};
 use crate::rigidity::model::Model;
-use crate::rigidity::paper::{Paper, Pairing, paper};
+use crate::rigidity::paper::{Pairing, Paper, paper};
 use crate::rigidity::remedy::Remedy;
 use crate::rigidity::spectrum::{Modes, least};
 use crate::rigidity::sway::{self, Sway};
@@ -277,11 +277,15 @@ impl Verdict {
         let sway = in_words(sway, play_mm);
         match self.outcome {
             Outcome::Flexible => all.push(RigidityFinding::Flexible {
-                play_mm, node, sway, limit_mm, pass_mm,
+                play_mm,
+                node,
+                sway,
+                limit_mm,
+                pass_mm,
             }),
-            Outcome::Grey => all.push(RigidityFinding::Grey {
-                play_mm, node, sway, limit_mm, pass_mm,
-            }),
+            Outcome::Grey => {
+                all.push(RigidityFinding::Grey { play_mm, node, sway, limit_mm, pass_mm })
+            }
             Outcome::Rigid | Outcome::Mechanism => {}
         }
         all

@@ -74,12 +74,13 @@ fn run(fins: usize) -> (usize, Vec<Span>) {
     let order = Order {
         draft: patch(fins),
         template: &template,
+        joint: finwright::joint::Joint::Lap,
         effort,
         accepted_flexible: None,
     };
     let job = job::run(order, &mut clock).ok().unwrap_or_default();
     clock.progress("export", 0, 1);
-    if let Some(sheets) = finwright::gate::approve(&job.sheets, &job.findings) {
+    if let Ok(sheets) = job.approved(finwright::joint::Joint::Lap, &template) {
         std::hint::black_box(finwright::export::cut_files(&sheets));
     }
     clock.progress("end", 0, 1);

@@ -1,0 +1,195 @@
+//! `finwright rigidity`: the verdict on its own.
+
+use crate::cli::args::InputArgs;
+use crate::cli::input;
+use crate::cli::run::{End, Failure, complain, print};
+use crate::cli::show::Voice;
+use crate::diagnostic::{Finding, passes};
+use crate::job;
+use crate::joint::Joint;
+use crate::rigidity::{
+    self, Fingerprint, Model, Outcome, Pairing, Question, RigidityFinding, SwayLimit,
+    Verdict,
+};
+use crate::structure::Structure;
+use crate::tolerance::Tolerance;
+use clap::builder::PossibleValue;
+use clap::{Args, ValueEnum};
+use std::path::PathBuf;
+
+/// Worked examples.
+pub(super) const HELP: &str = "\
+Examples:
+  finwright rigidity --joint hinge --fix lowest --remedies
+      is the embedded vault rigid as single fins on rods, and if not, what would help
+  finwright rigidity roof.json --play 0.1 --sway-limit L/100 --json
+      with 0.1 mm of play at every joint and a hundredth of the span as limit";
+
+/// Arguments of `rigidity`.
+#[derive(Debug, Args)]
+pub struct RigidityArgs {
+    /// What to judge.
+    #[command(flatten)]
+    pub input: InputArgs,
+
+    /// How many of the least resisted motions to list
+    #[arg(long, default_value_t = 6, value_name = "K",
+          value_parser = clap::value_parser!(u16).range(1..=200))]
+    pub modes: u16,
+
+    /// How far a sleeve may leave its pin, mm [default: half the template's clearance]
+    #[arg(long, value_name = "MM", value_parser = play)]
+    pub play: Option<f64>,
+
+    /// What a node may sway: mm, or L/N of the distance to the nearest support [default: as
+    /// the template says, L/50]
+    #[arg(long, value_name = "MM|L/N", value_parser = limit)]
+    pub sway_limit: Option<SwayLimit>,
+
+    /// Which bodies on one axis the paper's matrix compares
+    #[arg(long, value_enum, default_value = "pin")]
+    pub pairing: Pairing,
+
+    /// Bodies and pins from a JSON file instead of a structure
+    #[arg(long, value_name = "FILE", conflicts_with = "structure")]
+    pub linkage: Option<PathBuf>,
+
+    /// Say which joints to make stiff or which nodes to hold, fewest first
+    #[arg(long)]
+    pub remedies: bool,
+}
+
+impl ValueEnum for Pairing {
+    fn value_variants<'a>() -> &'a [Self] {
+        &[Self::Pin, Self::Chain, Self::Star, Self::Cyclic, Self::All]
+    }
+
+    fn to_possible_value(&self) -> Option<PossibleValue> {
+        Some(PossibleValue::new(self.name()))
+    }
+}
+
+fn play(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(play) if play.is_finite() && play >= 0.0 => Ok(play),
+        _ => Err(format!("{text:?} is no play in mm")),
+    }
+}
+
+fn limit(text: &str) -> Result<SwayLimit, String> {
+    text.parse().map_err(|error: RigidityFinding| error.to_string())
+}
+
+/// What is judged, and what was found before that.
+struct Case {
+    model: Model,
+    fingerprint: Fingerprint,
+    question: Question,
+    findings: Vec<Finding>,
+    joint: Option<Joint>,
+}
+
+/// Runs `rigidity`.
+pub(super) fn rigidity(args: &RigidityArgs, voice: Voice) -> Result<End, Failure> {
+    let case = match &args.linkage {
+        Some(path) => linkage(path),
+        None => structure(&args.input),
+    };
+    let mut case = match case? {
+        Ok(case) => case,
+        Err(findings) => {
+            voice.findings(&findings);
+            voice.say("refused: there is nothing to judge");
+            return Ok(End::Refused);
+        }
+    };
+    args.amend(&mut case.question);
+    let mut verdict = rigidity::judge(&case.model, &case.question, case.fingerprint);
+    if args.remedies {
+        let remedies = rigidity::remedies(&case.model, &case.question);
+        verdict = verdict.with_remedies(remedies);
+    }
+    case.findings.extend(verdict.findings().into_iter().map(Finding::from));
+    voice.findings(&case.findings);
+    if args.input.json {
+        print(&format!("{}\n", verdict.json(case.joint, true)));
+    }
+    say(&verdict, &case.model, voice);
+    let stands = matches!(verdict.outcome(), Outcome::Rigid | Outcome::Grey);
+    Ok(if stands && passes(&case.findings) { End::Done } else { End::Refused })
+}
+
+impl RigidityArgs {
+    fn amend(&self, question: &mut Question) {
+        question.modes = usize::from(self.modes);
+        question.pairing = self.pairing;
+        question.play_mm = self.play.unwrap_or(question.play_mm);
+        question.limit = self.sway_limit.unwrap_or(question.limit);
+    }
+}
+
+fn linkage(path: &PathBuf) -> Result<Result<Case, Vec<Finding>>, Failure> {
+    let text = input::text(path)?;
+    let model = match rigidity::read_linkage(&text) {
+        Ok(model) => model,
+        Err(facts) => {
+            let first = facts.into_iter().next();
+            let place = path.display();
+            return match first {
+                Some(fact) => {
+                    complain(&fact, &format!("{place}: {fact}"), None);
+                    Err(Failure::Said(End::CouldNotRun))
+                }
+                None => Ok(Err(Vec::new())),
+            };
+        }
+    };
+    let question = Question {
+        play_mm: 0.0,
+        limit: SwayLimit::Share(1.0 / 50.0),
+        modes: 6,
+        pairing: Pairing::Pin,
+        scale: 1.0,
+    };
+    let fingerprint = Fingerprint::of_nothing();
+    Ok(Ok(Case { model, fingerprint, question, findings: Vec::new(), joint: None }))
+}
+
+fn structure(args: &InputArgs) -> Result<Result<Case, Vec<Finding>>, Failure> {
+    let template = input::template(&args.template)?;
+    let input = input::structure(args)?;
+    let mut findings = input.findings;
+    let structure = match Structure::new(input.draft, &Tolerance::default()) {
+        Ok((structure, found)) => {
+            findings.extend(found);
+            structure
+        }
+        Err(refused) => {
+            findings.extend(refused.findings);
+            return Ok(Err(findings));
+        }
+    };
+    // Faults of shape do not keep anybody from asking whether it is rigid.
+    findings.retain(|f| f.severity != crate::diagnostic::Severity::Error);
+    let question = match job::question(&structure, &template) {
+        Ok(question) => question,
+        Err(fact) => return Ok(Err(vec![fact.into()])),
+    };
+    let joint = args.joint;
+    let (model, fingerprint) = job::model(&structure, joint, &template);
+    Ok(Ok(Case { model, fingerprint, question, findings, joint: Some(joint) }))
+}
+
+/// The verdict and the cures in words.
+fn say(verdict: &Verdict, model: &Model, voice: Voice) {
+    voice.say(&format!(
+        "{} bodies, {} pins, mobility {}",
+        model.bodies.len(),
+        model.pins(),
+        verdict.mobility()
+    ));
+    voice.say(&verdict.summary());
+    for line in rigidity::in_words(verdict.remedies(), model) {
+        voice.say(&line);
+    }
+}
