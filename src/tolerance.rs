@@ -93,3 +93,13 @@ pub const VANISHED: f64 = 1e-10;
 
 /// Contact forces that miss a unit load by more than this are no equilibrium.
 pub const FORCE_BALANCE: f64 = 1e-6;
+
+/// Least weight of a sleeve when bounds are tightened; below it, bases of motions lose
+/// digits.
+pub const LEAST_WEIGHT: f64 = 1e-7;
+
+/// A node that moves less than this share of the one that moves most stands still.
+pub const STANDS_STILL: f64 = 1e-6;
+
+/// Figures of rigidity below this are rounding and are written as 0.
+pub const ROUNDING: f64 = 1e-13;

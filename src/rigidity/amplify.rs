@@ -13,7 +13,7 @@
 use crate::geometry::Vector3;
 use crate::rigidity::factor::{Factor, Singular};
 use crate::rigidity::system::System;
-use crate::tolerance::{BRACKET_WIDTH, FORCE_BALANCE};
+use crate::tolerance::{BRACKET_WIDTH, FORCE_BALANCE, LEAST_WEIGHT};
 
 /// A load on the unknowns: one unit on a node along a direction. On a whole that floats
 /// its share in the rigid motions is taken off, so that it asks for the sway beside the
@@ -86,6 +86,8 @@ pub(super) struct Proof {
     pub(super) bracket: Bracket,
     /// Velocities of the unknowns in the motion of the lower bound, deviations at most 1.
     pub(super) motion: Vec<f64>,
+    /// Deviations of the sleeves in that motion, three numbers each.
+    pub(super) off: Vec<f64>,
     /// Contact forces of the upper bound, three numbers per sleeve.
     pub(super) forces: Vec<f64>,
 }
@@ -103,8 +105,6 @@ pub(super) struct Bracketing<'a> {
 
 /// Least weight of a sleeve in the first round, halved each round.
 const FIRST_FLOOR: f64 = 0.1;
-/// Least weight at all: below it, bases of motions lose digits.
-const LAST_FLOOR: f64 = 1e-7;
 
 impl<'a> Bracketing<'a> {
     /// First bounds of some loads at once, with the factor of the unweighted resistance.
@@ -124,8 +124,12 @@ impl<'a> Bracketing<'a> {
         let sleeves = system.sleeve[system.sleeve.len() - 1];
         let begun = loads.into_iter().enumerate().map(|(k, load)| {
             let y = x.chunks_exact(count).map(|row| row[k]).collect();
-            let proof =
-                Proof { bracket: Bracket::OPEN, motion: Vec::new(), forces: Vec::new() };
+            let proof = Proof {
+                bracket: Bracket::OPEN,
+                motion: Vec::new(),
+                off: Vec::new(),
+                forces: Vec::new(),
+            };
             let (weights, floor) = (vec![1.0; sleeves], FIRST_FLOOR);
             let mut begun = Self { system, load, proof, weights, floor };
             begun.learn(y);
@@ -161,6 +165,7 @@ impl<'a> Bracketing<'a> {
         if most > 0.0 && way / most > self.proof.bracket.lower {
             self.proof.bracket.lower = way / most;
             self.proof.motion = y.iter().map(|y| y / most).collect();
+            self.proof.off = off.iter().map(|d| d / most).collect();
         }
         let vectors = || {
             let scaled = off.chunks_exact(3).zip(&self.weights);
@@ -176,7 +181,7 @@ impl<'a> Bracketing<'a> {
         }
         let strongest = forces.iter().copied().fold(f64::MIN_POSITIVE, f64::max);
         self.weights = forces.iter().map(|f| (f / strongest).max(self.floor)).collect();
-        self.floor = (self.floor / 2.0).max(LAST_FLOOR);
+        self.floor = (self.floor / 2.0).max(LEAST_WEIGHT);
     }
 
     /// How far forces on the pins are from the load, largest entry.

@@ -5,6 +5,7 @@ use crate::rigidity::amplify::Bracket;
 use crate::rigidity::paper::{Discrepancy, Paper};
 use crate::rigidity::remedy::{Cure, Remedy};
 use crate::rigidity::verdict::{Outcome, Verdict};
+use crate::tolerance::ROUNDING;
 use serde_json::{Map, Value, json};
 
 /// Six significant digits: the last ones of a sum differ between processors.
@@ -12,8 +13,7 @@ fn six(value: f64) -> Value {
     if !value.is_finite() {
         return Value::Null;
     }
-    // Below this, rounding is all there is.
-    if value.abs() < 1e-13 {
+    if value.abs() < ROUNDING {
         return json!(0.0);
     }
     json!(format!("{value:.5e}").parse::<f64>().unwrap_or(value))

@@ -13,15 +13,18 @@
 mod amplify;
 mod factor;
 mod finding;
+mod front;
 mod json;
 mod lanczos;
 mod linkage;
+mod matrix;
 mod mobility;
 mod model;
 mod motions;
 mod paper;
 mod remedy;
 mod spectrum;
+mod stiffness;
 mod sway;
 mod symbolic;
 mod system;
@@ -36,4 +39,17 @@ pub use model::{Body, Knot, Model};
 pub use paper::{Discrepancy, Motion, Pairing, Paper};
 pub use remedy::{Cure, Remedy, in_words, remedies};
 pub use sway::Sway;
+/// Rms deviation of sleeves over rms motion in the `wanted` motions that meet least
+/// resistance, ascending; `fixed` is a body to hold beside the held nodes. `None` if a
+/// motion meets no resistance at all and the factorisation fails on it.
+pub fn least_resisted(
+    model: &Model,
+    fixed: Option<usize>,
+    wanted: usize,
+) -> Option<Vec<f64>> {
+    let threads = std::thread::available_parallelism().map_or(1, usize::from);
+    let system = system::System::new(model, fixed, threads);
+    spectrum::least(&system, wanted).ok().map(|modes| modes.sigma)
+}
+
 pub use verdict::{Fingerprint, Outcome, Question, SwayLimit, Verdict, judge};

@@ -109,6 +109,9 @@ impl Operator for Inverse<'_> {
 
     fn apply(&self, block: MatRef<'_, f64>) -> Mat<f64> {
         let count = block.ncols();
+        if count == 0 {
+            return Mat::zeros(block.nrows(), 0);
+        }
         let mut x = vec![0.0; block.nrows() * count];
         for (i, (row, root)) in x.chunks_exact_mut(count).zip(&self.roots).enumerate() {
             row.iter_mut().enumerate().for_each(|(k, x)| *x = block[(i, k)] * root);

@@ -83,11 +83,6 @@ impl Symbolic {
         self.start[self.start.len() - 1]
     }
 
-    /// Numbers stored in the factor.
-    pub(super) fn stored(&self) -> usize {
-        self.supernodes.iter().map(|s| s.width * (s.width + s.below)).sum()
-    }
-
     /// Unknowns of the group at a place.
     pub(super) fn size(&self, place: usize) -> usize {
         self.start[place + 1] - self.start[place]

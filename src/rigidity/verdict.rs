@@ -10,6 +10,7 @@ use crate::rigidity::spectrum::{Modes, least};
 use crate::rigidity::sway::{self, Sway};
 use crate::rigidity::system::System;
 use crate::structure::{Structure, write_json};
+use crate::tolerance::FORCE_BALANCE;
 use sha2::{Digest, Sha256};
 
 /// What a structure may sway.
@@ -209,7 +210,7 @@ impl Verdict {
             Ok(None) => {}
             Ok(Some(sway)) => {
                 let (lower, upper) = (sway.bracket.lower, sway.bracket.upper);
-                if lower > upper * (1.0 + 1e-6) {
+                if lower > upper * (1.0 + FORCE_BALANCE) {
                     self.outcome = Outcome::Mechanism;
                     self.mobility = 1;
                     self.notes.push(RigidityFinding::Contradiction { lower, upper });

@@ -17,7 +17,8 @@ pub(crate) fn material(name: &str) -> Template {
 /// The job of a draft; its structure must be one.
 pub(crate) fn made(draft: Draft, template: &Template) -> Job {
     let effort = Effort { trials: 1, seed: 0 };
-    let order = Order { draft, template, effort, accepted_flexible: None };
+    let joint = finwright::joint::Joint::Lap;
+    let order = Order { draft, template, joint, effort, accepted_flexible: None };
     let job = job::run(order, &mut ()).expect("nobody stops it");
     assert!(job.structure.is_some(), "{:?}", job.findings);
     job

@@ -1,0 +1,210 @@
+//! The paper's matrix `A` and its smallest singular values, dense and sparse.
+
+use crate::geometry::Vector3;
+use crate::rigidity::factor::{Factor, Singular};
+use crate::rigidity::lanczos::{self, Operator};
+use crate::rigidity::model::Model;
+use crate::rigidity::paper::{Pairing, free_rank, velocity};
+use crate::rigidity::system::System;
+use faer::{Mat, MatRef};
+
+/// `A`, row by row; unknowns are the motions of the bodies after the first.
+pub(super) struct Matrix<'a> {
+    pub(super) model: &'a Model,
+    pub(super) pairing: Pairing,
+}
+
+/// Singular values, ascending, their motions, and the largest singular value.
+type Solved = (Vec<f64>, Vec<Vec<[f64; 6]>>, f64);
+
+impl Matrix<'_> {
+    fn size(&self) -> usize {
+        6 * (self.model.bodies.len() - 1)
+    }
+
+    fn twists(&self, x: impl Fn(usize) -> f64) -> Vec<[f64; 6]> {
+        let of = |body: usize| std::array::from_fn(|k| x(6 * body + k));
+        let moving = (0..self.model.bodies.len() - 1).map(of);
+        std::iter::once([0.0; 6]).chain(moving).collect()
+    }
+
+    /// `A x`.
+    fn apply(&self, twists: &[[f64; 6]]) -> Vec<f64> {
+        let mut all = Vec::new();
+        for knot in &self.model.knots {
+            for difference in self.pairing.differences(knot.bodies.len()) {
+                for &q in &knot.points {
+                    let terms = difference.iter();
+                    let off: Vector3 = terms
+                        .map(|(i, s)| velocity(&twists[knot.bodies[*i]], q) * *s)
+                        .sum();
+                    all.extend_from_slice(off.as_slice());
+                }
+            }
+        }
+        all
+    }
+
+    /// `Aᵀ v`, body 0 left out.
+    fn transposed(&self, values: &[f64]) -> Vec<f64> {
+        let mut x = vec![0.0; self.size() + 6];
+        let mut values = values.chunks_exact(3);
+        for knot in &self.model.knots {
+            for difference in self.pairing.differences(knot.bodies.len()) {
+                for (q, v) in knot.points.iter().zip(&mut values) {
+                    let v = Vector3::new(v[0], v[1], v[2]);
+                    let turn = q.coords.cross(&v);
+                    for (i, share) in &difference {
+                        let at = 6 * knot.bodies[*i];
+                        for k in 0..3 {
+                            x[at + k] += share * turn[k];
+                            x[at + 3 + k] += share * v[k];
+                        }
+                    }
+                }
+            }
+        }
+        x.split_off(6)
+    }
+
+    /// Everything by one singular value decomposition; motions that move no hinge are
+    /// left out.
+    pub(super) fn dense(&self, wanted: usize) -> Solved {
+        let n = self.size();
+        let columns: Vec<Vec<f64>> = (0..n)
+            .map(|k| self.apply(&self.twists(|i| f64::from(u8::from(i == k)))))
+            .collect();
+        let rows = columns.first().map_or(0, Vec::len);
+        if rows == 0 {
+            return (Vec::new(), Vec::new(), 0.0);
+        }
+        let matrix =
+            Mat::from_fn(
+                rows.max(n),
+                n,
+                |i, j| {
+                    if i < rows { columns[j][i] } else { 0.0 }
+                },
+            );
+        let Ok(svd) = matrix.thin_svd() else { return (Vec::new(), Vec::new(), 0.0) };
+        let spins: usize =
+            (1..self.model.bodies.len()).map(|b| 6 - free_rank(self.model, b)).sum();
+        let all: Vec<f64> = (0..n).rev().map(|k| svd.S()[k]).collect();
+        let last = (spins + wanted).min(n);
+        let twists = (spins..last).map(|k| self.twists(|i| svd.V()[(i, n - 1 - k)]));
+        (all[spins..last].to_vec(), twists.collect(), svd.S()[0])
+    }
+
+    pub(super) fn sparse(
+        &self,
+        wanted: usize,
+        threads: usize,
+    ) -> Result<Solved, Singular> {
+        let system = System::new(self.model, Some(0), threads);
+        let factor = system.factor(None)?;
+        let inverse = PinInverse { system: &system, factor: &factor };
+        let vectors = lanczos::largest(&inverse, wanted);
+        let mut found: Vec<(f64, Vec<[f64; 6]>)> = (0..vectors.ncols())
+            .map(|k| {
+                let twists = self.twists(|i| vectors[(i, k)]);
+                let norm = |v: &[f64]| v.iter().map(|x| x * x).sum::<f64>().sqrt();
+                (norm(&self.apply(&twists)) / norm(twists.as_flattened()), twists)
+            })
+            .collect();
+        found.sort_by(|a, b| a.0.total_cmp(&b.0));
+        let top = lanczos::largest(&Square(self), 1);
+        let top = self.apply(&self.twists(|i| top[(i, 0)]));
+        let largest = top.iter().map(|x| x * x).sum::<f64>().sqrt();
+        let (sigma, twists) = found.into_iter().unzip();
+        Ok((sigma, twists, largest))
+    }
+}
+
+/// `AᵀA`.
+struct Square<'a>(&'a Matrix<'a>);
+
+impl Operator for Square<'_> {
+    fn size(&self) -> usize {
+        self.0.size()
+    }
+
+    fn apply(&self, block: MatRef<'_, f64>) -> Mat<f64> {
+        let image = |k: usize| {
+            let twists = self.0.twists(|i| block[(i, k)]);
+            self.0.transposed(&self.0.apply(&twists))
+        };
+        let images: Vec<Vec<f64>> = (0..block.ncols()).map(image).collect();
+        Mat::from_fn(block.nrows(), block.ncols(), |i, k| images[k][i])
+    }
+
+    fn project(&self, _block: &mut Mat<f64>) {}
+}
+
+/// The inverse of `AᵀA` for the pairing `pin`: with `J X = Q z` and `X = T z` it is
+/// `T (I + Qᵀ K⁻¹ Q) Tᵀ`, so that the factor of the pin form serves.
+struct PinInverse<'a> {
+    system: &'a System<'a>,
+    factor: &'a Factor<'a>,
+}
+
+impl PinInverse<'_> {
+    /// `Tᵀ x` of one body.
+    fn shares(&self, body: usize, x: impl Fn(usize) -> f64) -> [f64; 6] {
+        let mut shares = [0.0; 6];
+        for (share, twist) in shares.iter_mut().zip(&self.system.motions[body].twists) {
+            *share = twist.iter().enumerate().map(|(k, t)| t * x(6 * body - 6 + k)).sum();
+        }
+        shares
+    }
+}
+
+impl Operator for PinInverse<'_> {
+    fn size(&self) -> usize {
+        6 * (self.system.motions.len() - 1)
+    }
+
+    fn apply(&self, block: MatRef<'_, f64>) -> Mat<f64> {
+        let (system, count) = (self.system, block.ncols());
+        let bodies = 1..system.motions.len();
+        let mut right = vec![0.0; system.unknowns() * count];
+        let mut shares = vec![vec![[0.0; 6]; count]; system.motions.len()];
+        for k in 0..count {
+            let mut sleeves = vec![0.0; 3 * system.sleeve[1]];
+            for body in bodies.clone() {
+                let z = self.shares(body, |i| block[(i, k)]);
+                let motions = &system.motions[body];
+                let from = sleeves.len();
+                sleeves.resize(from + motions.rows, 0.0);
+                for (j, z) in z.iter().enumerate().take(motions.rank) {
+                    let column = motions.column(j).iter();
+                    sleeves[from..].iter_mut().zip(column).for_each(|(s, q)| *s += z * q);
+                }
+                shares[body][k] = z;
+            }
+            let y = system.scatter(&sleeves);
+            for (row, y) in right.chunks_exact_mut(count).zip(y) {
+                row[k] = y;
+            }
+        }
+        self.factor.solve(&mut right, count);
+        let mut image = Mat::zeros(block.nrows(), count);
+        let mut values = Vec::new();
+        for k in 0..count {
+            let y: Vec<f64> = right.chunks_exact(count).map(|row| row[k]).collect();
+            for body in bodies.clone() {
+                system.gather(body, &y, &mut values);
+                let motions = &system.motions[body];
+                let back = motions.shares(&values);
+                for (j, twist) in motions.twists.iter().enumerate() {
+                    let z = shares[body][k][j] + back[j];
+                    for (i, t) in twist.iter().enumerate() {
+                        image[(6 * body - 6 + i, k)] += t * z;
+                    }
+                }
+            }
+        }
+        image
+    }
+
+    fn project(&self, _block: &mut Mat<f64>) {}
+}
