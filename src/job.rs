@@ -170,21 +170,23 @@ impl Job {
     }
 }
 
-/// What a structure is as a mechanism, and what was judged.
+/// What a structure is as a mechanism, the structure with its strips as they will be cut,
+/// and what is judged.
 pub fn model(
     structure: &Structure,
     joint: Joint,
     template: &Template,
-) -> (Model, Fingerprint) {
+) -> (Model, Structure, Fingerprint) {
     let fingerprint = |structure| Fingerprint::of(structure, joint, &template.source);
     match joint {
         Joint::Lap => {
             let (structure, unheld) = parts::lapped(structure, &fit(template));
-            (Model::of(&structure, joint, &unheld), fingerprint(&structure))
+            let fingerprint = fingerprint(&structure);
+            (Model::of(&structure, joint, &unheld), structure, fingerprint)
         }
         Joint::Hinge | Joint::Hub => {
             let model = Model::of(structure, joint, &Default::default());
-            (model, fingerprint(structure))
+            (model, structure.clone(), fingerprint(structure))
         }
     }
 }
@@ -226,7 +228,7 @@ pub fn verdict(
         Some(question) => *question,
         None => question(structure, template)?,
     };
-    let (model, fingerprint) = model(structure, joint, template);
+    let (model, _, fingerprint) = model(structure, joint, template);
     Ok(rigidity::judge(&model, &question, fingerprint))
 }
 

@@ -2,14 +2,15 @@
 
 use crate::cli::args::InputArgs;
 use crate::cli::input;
+use crate::cli::jobdir::JobDirError;
 use crate::cli::run::{End, Failure, complain, print};
 use crate::cli::show::Voice;
 use crate::diagnostic::{Finding, passes};
 use crate::job;
 use crate::joint::Joint;
 use crate::rigidity::{
-    self, Fingerprint, Model, Outcome, Pairing, Question, RigidityFinding, SwayLimit,
-    Verdict,
+    self, Fingerprint, Look, Model, Outcome, Pairing, Question, RigidityFinding,
+    SwayLimit, Verdict,
 };
 use crate::structure::Structure;
 use crate::tolerance::Tolerance;
@@ -54,9 +55,45 @@ pub struct RigidityArgs {
     #[arg(long, value_name = "FILE", conflicts_with = "structure")]
     pub linkage: Option<PathBuf>,
 
+    /// Draw the least resisted motion, fins coloured by the discrepancy of their hinges
+    #[arg(long, value_name = "FILE.png", conflicts_with = "linkage")]
+    pub picture: Option<PathBuf>,
+
+    /// Which of the least resisted motions to draw, the first is 1
+    #[arg(long, default_value_t = 1, value_name = "N",
+          value_parser = clap::value_parser!(u16).range(1..=200))]
+    pub picture_mode: u16,
+
+    /// From where to look at it, degrees around and up
+    #[arg(long, default_value = "-63,32", value_name = "AROUND,UP", value_parser = view,
+          allow_hyphen_values = true)]
+    pub view: View,
+
+    /// The discrepancy to draw in full red [default: the largest there is]
+    #[arg(long, value_name = "D", value_parser = play)]
+    pub red: Option<f64>,
+
     /// Say which joints to make stiff or which nodes to hold, fewest first
     #[arg(long)]
     pub remedies: bool,
+}
+
+/// From where a structure is looked at, degrees.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct View {
+    around: f64,
+    up: f64,
+}
+
+fn view(text: &str) -> Result<View, String> {
+    let numbers: Option<Vec<f64>> =
+        text.split(',').map(|word| word.trim().parse().ok()).collect();
+    match numbers.as_deref() {
+        Some(&[around, up]) if around.is_finite() && up.is_finite() => {
+            Ok(View { around, up })
+        }
+        _ => Err(format!("{text:?} is no view; write -63,32")),
+    }
 }
 
 impl ValueEnum for Pairing {
@@ -87,6 +124,7 @@ struct Case {
     question: Question,
     findings: Vec<Finding>,
     joint: Option<Joint>,
+    structure: Option<Structure>,
 }
 
 /// Runs `rigidity`.
@@ -114,12 +152,36 @@ pub(super) fn rigidity(args: &RigidityArgs, voice: Voice) -> Result<End, Failure
     if args.input.json {
         print(&format!("{}\n", verdict.json(case.joint, true)));
     }
+    if let Some(path) = &args.picture {
+        args.draw(path, &case.model, case.structure.as_ref(), &verdict)?;
+    }
     say(&verdict, &case.model, voice);
     let stands = matches!(verdict.outcome(), Outcome::Rigid | Outcome::Grey);
     Ok(if stands && passes(&case.findings) { End::Done } else { End::Refused })
 }
 
 impl RigidityArgs {
+    fn draw(
+        &self,
+        path: &PathBuf,
+        model: &Model,
+        structure: Option<&Structure>,
+        verdict: &Verdict,
+    ) -> Result<(), Failure> {
+        let look = Look {
+            from: [self.view.around.to_radians(), self.view.up.to_radians()],
+            motion: usize::from(self.picture_mode) - 1,
+            red: self.red,
+            ..Look::default()
+        };
+        let drawn = structure.zip(verdict.paper());
+        let drawn =
+            drawn.and_then(|(s, paper)| rigidity::picture(s, model, paper, &look));
+        let Some(bytes) = drawn else { return Ok(()) };
+        std::fs::write(path, bytes)
+            .map_err(|source| JobDirError::Disk { path: path.clone(), source }.into())
+    }
+
     fn amend(&self, question: &mut Question) {
         question.modes = usize::from(self.modes);
         question.pairing = self.pairing;
@@ -152,7 +214,14 @@ fn linkage(path: &PathBuf) -> Result<Result<Case, Vec<Finding>>, Failure> {
         scale: 1.0,
     };
     let fingerprint = Fingerprint::of_nothing();
-    Ok(Ok(Case { model, fingerprint, question, findings: Vec::new(), joint: None }))
+    Ok(Ok(Case {
+        model,
+        fingerprint,
+        question,
+        findings: Vec::new(),
+        joint: None,
+        structure: None,
+    }))
 }
 
 fn structure(args: &InputArgs) -> Result<Result<Case, Vec<Finding>>, Failure> {
@@ -176,8 +245,9 @@ fn structure(args: &InputArgs) -> Result<Result<Case, Vec<Finding>>, Failure> {
         Err(fact) => return Ok(Err(vec![fact.into()])),
     };
     let joint = args.joint;
-    let (model, fingerprint) = job::model(&structure, joint, &template);
-    Ok(Ok(Case { model, fingerprint, question, findings, joint: Some(joint) }))
+    let (model, structure, fingerprint) = job::model(&structure, joint, &template);
+    let structure = Some(structure);
+    Ok(Ok(Case { model, fingerprint, question, findings, joint: Some(joint), structure }))
 }
 
 /// The verdict and the cures in words.

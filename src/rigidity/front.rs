@@ -19,11 +19,18 @@ pub(super) struct Work<'a> {
     threads: usize,
     /// By place of a group, its first row in the present front.
     local: Vec<u32>,
+    /// Buffers of updates that were taken in, to be used again.
+    spare: Vec<Vec<f64>>,
 }
 
 impl<'a> Work<'a> {
     pub(super) fn new(symbolic: &'a Symbolic, threads: usize) -> Self {
-        Self { symbolic, threads, local: vec![0; symbolic.place.len()] }
+        Self {
+            symbolic,
+            threads,
+            local: vec![0; symbolic.place.len()],
+            spare: Vec::new(),
+        }
     }
 
     /// Numbers the rows of a front.
@@ -52,7 +59,9 @@ impl<'a> Work<'a> {
         let (width, below) = (node.width, node.below);
         let height = width + below;
         let mut columns = vec![0.0; width * height];
-        let mut update = vec![0.0; below * below];
+        let mut update = self.spare.pop().unwrap_or_default();
+        update.clear();
+        update.resize(below * below, 0.0);
         self.enter(node);
         entries.entries(s, &mut |row, column, block| {
             let (r, c) = (self.local(row), self.local(column));
@@ -74,6 +83,7 @@ impl<'a> Work<'a> {
                 &letter,
                 (&mut columns, &mut update),
             );
+            self.spare.push(letter);
         }
         let mut front = MatMut::from_column_major_slice_mut(&mut columns, height, width);
         let (mut top, mut bottom) = front.rb_mut().split_at_row_mut(width);

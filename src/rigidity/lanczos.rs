@@ -47,7 +47,7 @@ pub(super) fn largest(operator: &dyn Operator, wanted: usize) -> Mat<f64> {
     let mut basis: Vec<Mat<f64>> = Vec::new();
     let mut projected: Mat<f64> = Mat::zeros(0, 0);
     for _ in 0..MOST_STEPS {
-        let mut fresh = orthonormal(&basis, &next).0;
+        let mut fresh = orthonormal(&[], &next).0;
         // Short columns have lost digits: what they were cleared of may be back.
         operator.project(&mut fresh);
         fresh = orthonormal(&basis, &fresh).0;
@@ -154,11 +154,12 @@ pub(super) fn clear(basis: &[Mat<f64>], block: &mut Mat<f64>) -> Mat<f64> {
 pub(super) fn orthonormal(basis: &[Mat<f64>], block: &Mat<f64>) -> (Mat<f64>, Mat<f64>) {
     let columns = block.ncols();
     let largest = block.norm_l2();
+    let mut block = block.to_owned();
+    clear(basis, &mut block);
     let mut made: Vec<Mat<f64>> = Vec::new();
     let mut factor = Mat::zeros(columns, columns);
     for j in 0..columns {
         let mut column = block.subcols(j, 1).to_owned();
-        clear(basis, &mut column);
         let shares = clear(&made, &mut column);
         for i in 0..made.len() {
             factor[(i, j)] = shares[(i, 0)];

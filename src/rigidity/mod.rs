@@ -22,6 +22,7 @@ mod mobility;
 mod model;
 mod motions;
 mod paper;
+mod picture;
 mod remedy;
 mod spectrum;
 mod stiffness;
@@ -37,6 +38,7 @@ pub use finding::RigidityFinding;
 pub use linkage::read_linkage;
 pub use model::{Body, Knot, Model};
 pub use paper::{Discrepancy, Motion, Pairing, Paper};
+pub use picture::{Look, picture};
 pub use remedy::{Cure, Remedy, in_words, remedies};
 pub use sway::Sway;
 /// Rms deviation of sleeves over rms motion in the `wanted` motions that meet least

@@ -191,6 +191,18 @@ fn normalised(
     twists
 }
 
+impl Paper {
+    /// Discrepancies of the hinges of the model in one of the motions.
+    pub(super) fn discrepancies_in(
+        &self,
+        model: &Model,
+        motion: usize,
+    ) -> Vec<Discrepancy> {
+        let motion = self.motions.get(motion);
+        motion.map_or_else(Vec::new, |m| discrepancies(&scaled(model, self.scale), m))
+    }
+}
+
 fn discrepancies(model: &Model, motion: &Motion) -> Vec<Discrepancy> {
     let mut all = Vec::new();
     for knot in &model.knots {
