@@ -1,7 +1,7 @@
 //! The gate: cut files can only be made from what has been approved.
 
 use crate::diagnostic::{Finding, passes};
-use crate::rigidity::{Fingerprint, Outcome, Verdict};
+use crate::rigidity::{Fingerprint, Verdict};
 use thiserror::Error;
 
 /// Work that may go to the laser. Only [`approve`] and [`approve_loose`] make one, and
@@ -55,9 +55,8 @@ pub fn approve<T>(
     if verdict.fingerprint() != judged.fingerprint {
         return Err(Shut::Stale);
     }
-    let rigid = matches!(verdict.outcome(), Outcome::Rigid | Outcome::Grey);
     let accepted = judged.accepted.is_some_and(|reason| !reason.trim().is_empty());
-    if !rigid && !accepted {
+    if !verdict.passes() && !accepted {
         return Err(Shut::NotRigid);
     }
     if passes(findings) { Ok(Approved(work)) } else { Err(Shut::Findings) }

@@ -7,7 +7,8 @@ use crate::joint::Joint;
 use crate::nest::{self, Effort, Layout, NestError, Shape, Stock, Turns};
 use crate::parts::{self, Fit, FoldMarks, Making, Marking, Part};
 use crate::rigidity::{
-    self, Fingerprint, Model, Pairing, Question, RigidityFinding, SwayLimit, Verdict,
+    self, FEW_STEPS, Fingerprint, Model, Pairing, Question, RigidityFinding, SwayLimit,
+    Verdict,
 };
 use crate::sheets::{self, Frame, Kerf, Laying, Sheet};
 use crate::structure::{Draft, Structure};
@@ -70,11 +71,7 @@ pub fn run(order: Order, watch: &mut dyn Watch) -> Result<Job, Interrupted> {
         }
         Err(refused) => return Ok(Job { findings: refused.findings, ..job }),
     };
-    watch.progress("rigidity", 0, 1);
-    job.judge(&structure, order.joint, template);
-    if watch.stopped() {
-        return Err(Interrupted);
-    }
+    job.judge(&structure, order.joint, template, watch)?;
     if order.joint != Joint::Lap {
         job.structure = Some(structure);
         return Ok(job);
@@ -94,8 +91,8 @@ pub fn run(order: Order, watch: &mut dyn Watch) -> Result<Job, Interrupted> {
         let drawn = drawn.flattened(ARC_SAGITTA_MM);
         stock.iter().any(|sheet| nest::fits(&drawn, &turns, sheet).is_some())
     };
-    let marking = marking(template);
-    let made = parts::strips(structure, &Making { fit: &fit, marking, fits: &fits });
+    let making = Making { fit: &fit, marking: marking(template), fits: &fits };
+    let made = parts::strips(structure, &making);
     job.findings.extend(made.findings.into_iter().map(Finding::from));
     job.structure = Some(made.structure);
     job.parts = made.parts;
@@ -157,7 +154,14 @@ impl Job {
     }
 
     /// Judges the structure and notes what forbids cutting.
-    fn judge(&mut self, structure: &Structure, joint: Joint, template: &Template) {
+    fn judge(
+        &mut self,
+        structure: &Structure,
+        joint: Joint,
+        template: &Template,
+        watch: &mut dyn Watch,
+    ) -> Result<(), Interrupted> {
+        watch.progress("rigidity", 0, 1);
         let verdict = verdict(structure, joint, template, None);
         match verdict {
             Ok(verdict) => {
@@ -167,6 +171,7 @@ impl Job {
             }
             Err(finding) => self.findings.push(finding.into()),
         }
+        if watch.stopped() { Err(Interrupted) } else { Ok(()) }
     }
 }
 
@@ -214,6 +219,9 @@ pub fn question(
     })
 }
 
+/// Up to this many bodies a refusal comes with the first steps of what would help.
+const CURABLE: usize = 2000;
+
 /// Judges a structure with a joint; the question is the template's unless one is given.
 ///
 /// # Errors
@@ -229,7 +237,12 @@ pub fn verdict(
         None => question(structure, template)?,
     };
     let (model, _, fingerprint) = model(structure, joint, template);
-    Ok(rigidity::judge(&model, &question, fingerprint))
+    let verdict = rigidity::judge(&model, &question, fingerprint);
+    if verdict.passes() || model.bodies.len() > CURABLE {
+        return Ok(verdict);
+    }
+    let remedies = rigidity::remedies(&model, &question, FEW_STEPS);
+    Ok(verdict.with_remedies(remedies))
 }
 
 /// Findings of a verdict; what is accepted becomes a warning.

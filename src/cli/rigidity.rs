@@ -9,14 +9,14 @@ use crate::diagnostic::{Finding, passes};
 use crate::job;
 use crate::joint::Joint;
 use crate::rigidity::{
-    self, Fingerprint, Look, Model, Outcome, Pairing, Question, RigidityFinding,
+    self, Fingerprint, Look, MOST_STEPS, Model, Pairing, Question, RigidityFinding,
     SwayLimit, Verdict,
 };
 use crate::structure::Structure;
 use crate::tolerance::Tolerance;
 use clap::builder::PossibleValue;
 use clap::{Args, ValueEnum};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 /// Worked examples.
 pub(super) const HELP: &str = "\
@@ -144,7 +144,7 @@ pub(super) fn rigidity(args: &RigidityArgs, voice: Voice) -> Result<End, Failure
     args.amend(&mut case.question);
     let mut verdict = rigidity::judge(&case.model, &case.question, case.fingerprint);
     if args.remedies {
-        let remedies = rigidity::remedies(&case.model, &case.question);
+        let remedies = rigidity::remedies(&case.model, &case.question, MOST_STEPS);
         verdict = verdict.with_remedies(remedies);
     }
     case.findings.extend(verdict.findings().into_iter().map(Finding::from));
@@ -156,14 +156,13 @@ pub(super) fn rigidity(args: &RigidityArgs, voice: Voice) -> Result<End, Failure
         args.draw(path, &case.model, case.structure.as_ref(), &verdict)?;
     }
     say(&verdict, &case.model, voice);
-    let stands = matches!(verdict.outcome(), Outcome::Rigid | Outcome::Grey);
-    Ok(if stands && passes(&case.findings) { End::Done } else { End::Refused })
+    Ok(if verdict.passes() && passes(&case.findings) { End::Done } else { End::Refused })
 }
 
 impl RigidityArgs {
     fn draw(
         &self,
-        path: &PathBuf,
+        path: &Path,
         model: &Model,
         structure: Option<&Structure>,
         verdict: &Verdict,
@@ -179,7 +178,7 @@ impl RigidityArgs {
             drawn.and_then(|(s, paper)| rigidity::picture(s, model, paper, &look));
         let Some(bytes) = drawn else { return Ok(()) };
         std::fs::write(path, bytes)
-            .map_err(|source| JobDirError::Disk { path: path.clone(), source }.into())
+            .map_err(|source| JobDirError::Disk { path: path.to_owned(), source }.into())
     }
 
     fn amend(&self, question: &mut Question) {
@@ -190,7 +189,7 @@ impl RigidityArgs {
     }
 }
 
-fn linkage(path: &PathBuf) -> Result<Result<Case, Vec<Finding>>, Failure> {
+fn linkage(path: &Path) -> Result<Result<Case, Vec<Finding>>, Failure> {
     let text = input::text(path)?;
     let model = match rigidity::read_linkage(&text) {
         Ok(model) => model,
@@ -259,7 +258,7 @@ fn say(verdict: &Verdict, model: &Model, voice: Voice) {
         verdict.mobility()
     ));
     voice.say(&verdict.summary());
-    for line in rigidity::in_words(verdict.remedies(), model) {
+    for line in verdict.remedies_in_words() {
         voice.say(&line);
     }
 }

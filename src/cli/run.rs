@@ -218,6 +218,9 @@ fn make(args: &MakeArgs, voice: Voice) -> Result<End, Failure> {
     if args.input.json {
         print(&format!("{manifest}\n"));
     }
+    if let (End::Refused, Some(verdict)) = (end, &job.verdict) {
+        verdict.remedies_in_words().iter().for_each(|line| voice.say(line));
+    }
     voice.say(&summary(job, end, &dir));
     Ok(end)
 }

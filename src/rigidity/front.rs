@@ -85,7 +85,21 @@ impl<'a> Work<'a> {
             );
             self.spare.push(letter);
         }
-        let mut front = MatMut::from_column_major_slice_mut(&mut columns, height, width);
+        self.reduce(node, &mut columns, &mut update)?;
+        mail.put(s, update);
+        Ok(columns)
+    }
+
+    /// Turns the columns of a front into the factor's and takes their share from the update.
+    fn reduce(
+        &self,
+        node: &Supernode,
+        columns: &mut [f64],
+        update: &mut [f64],
+    ) -> Result<(), Singular> {
+        let (width, below) = (node.width, node.below);
+        let height = width + below;
+        let mut front = MatMut::from_column_major_slice_mut(columns, height, width);
         let (mut top, mut bottom) = front.rb_mut().split_at_row_mut(width);
         let scratch =
             cholesky_in_place_scratch::<f64>(width, Par::Seq, Default::default());
@@ -98,7 +112,7 @@ impl<'a> Work<'a> {
         )
         .map_err(|_| Singular)?;
         if below > 0 {
-            let update = MatMut::from_column_major_slice_mut(&mut update, below, below);
+            let update = MatMut::from_column_major_slice_mut(update, below, below);
             if node.work() < LARGE {
                 solve_below(top.rb(), bottom.rb_mut());
                 subtract_square(update, bottom.rb());
@@ -106,8 +120,7 @@ impl<'a> Work<'a> {
                 self.eliminate_large(top.rb(), bottom.rb_mut(), update);
             }
         }
-        mail.put(s, update);
-        Ok(columns)
+        Ok(())
     }
 
     /// Adds a child's update, whose lower triangle counts, to the front.
@@ -151,7 +164,7 @@ impl<'a> Work<'a> {
                 (self.local(row as usize), self.symbolic.size(row as usize));
             match runs.last_mut() {
                 Some(last) if last.0 + last.1 == local && local != width => {
-                    last.1 += size
+                    last.1 += size;
                 }
                 _ => runs.push((local, size)),
             }

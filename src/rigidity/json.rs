@@ -39,7 +39,7 @@ impl Verdict {
         let amplification = if moves { amplification } else { Some(still) };
         json!({
             "joint": joint.into().map(Joint::name),
-            "bodies": self.bodies,
+            "bodies": self.bodies.len(),
             "pins": self.pins,
             "mobility": self.mobility,
             "paper": self.paper.as_ref().map(|paper| paper_json(paper, per_hinge)),

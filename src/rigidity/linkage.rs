@@ -6,11 +6,14 @@ use crate::rigidity::model::{Body, Knot, Model};
 use serde::Deserialize;
 use std::collections::BTreeSet;
 
+/// Place, axis and bodies of a pin.
+type Given = ([f64; 3], [f64; 3], Vec<usize>);
+
 #[derive(Deserialize)]
 struct File {
     bodies: usize,
     r: f64,
-    pins: Vec<([f64; 3], [f64; 3], Vec<usize>)>,
+    pins: Vec<Given>,
 }
 
 /// More bodies than this are taken for a mistake.
@@ -39,22 +42,21 @@ pub fn read_linkage(text: &str) -> Result<Model, Vec<RigidityFinding>> {
     if !findings.is_empty() {
         return Err(findings);
     }
-    let knot =
-        |(pin, (place, axis, bodies)): (usize, ([f64; 3], [f64; 3], Vec<usize>))| {
-            let half = Vector3::from(axis).normalize() * file.r;
-            let place = Point3::from(place);
-            let mut bodies = bodies;
-            bodies.sort_unstable();
-            let points = vec![place - half, place + half];
-            Knot { node: pin, points, bodies, held: false, share: 0.5 }
-        };
+    let knot = |(pin, (place, axis, bodies)): (usize, Given)| {
+        let half = Vector3::from(axis).normalize() * file.r;
+        let place = Point3::from(place);
+        let mut bodies = bodies;
+        bodies.sort_unstable();
+        let points = vec![place - half, place + half];
+        Knot { node: pin, points, bodies, held: false, share: 0.5 }
+    };
     let knots = file.pins.into_iter().enumerate().map(knot).collect();
     Ok(Model::new((0..file.bodies).map(Body::Link).collect(), knots))
 }
 
 fn fault(
     pin: usize,
-    (place, axis, on): &([f64; 3], [f64; 3], Vec<usize>),
+    (place, axis, on): &Given,
     bodies: usize,
 ) -> Option<RigidityFinding> {
     if place.iter().chain(axis).any(|x| !x.is_finite()) {

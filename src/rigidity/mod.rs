@@ -39,7 +39,7 @@ pub use linkage::read_linkage;
 pub use model::{Body, Knot, Model};
 pub use paper::{Discrepancy, Motion, Pairing, Paper};
 pub use picture::{Look, picture};
-pub use remedy::{Cure, Remedy, in_words, remedies};
+pub use remedy::{Cure, FEW_STEPS, MOST_STEPS, Remedy, remedies};
 pub use sway::Sway;
 /// Rms deviation of sleeves over rms motion in the `wanted` motions that meet least
 /// resistance, ascending; `fixed` is a body to hold beside the held nodes. `None` if a

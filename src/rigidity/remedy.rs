@@ -6,7 +6,7 @@
 
 use crate::geometry::Vector3;
 use crate::rigidity::mobility::mobility;
-use crate::rigidity::model::Model;
+use crate::rigidity::model::{Body, Model};
 use crate::rigidity::spectrum::least;
 use crate::rigidity::sway::{self, node_velocity};
 use crate::rigidity::system::System;
@@ -37,15 +37,17 @@ pub struct Remedy {
     pub passes: bool,
 }
 
-/// Steps that are shown of each kind.
-const MOST_STEPS: usize = 200;
+/// Steps of each kind that say enough where a whole course would take long.
+pub const FEW_STEPS: usize = 6;
+/// Steps of each kind at most.
+pub const MOST_STEPS: usize = 200;
 /// Motions that are weighed.
 const MODES: usize = 10;
 
-/// Two cures from the beginning to where each passes: by welds, and by holding nodes.
-pub fn remedies(model: &Model, question: &Question) -> Vec<Remedy> {
-    let welds = course(model, question, &weld);
-    let fixes = course(model, question, &fix);
+/// Two cures, each to where it passes or `most` steps: by welds, and by holding nodes.
+pub fn remedies(model: &Model, question: &Question, most: usize) -> Vec<Remedy> {
+    let welds = course(model, (question, most), &weld);
+    let fixes = course(model, (question, most), &fix);
     welds.into_iter().chain(fixes).collect()
 }
 
@@ -56,12 +58,16 @@ type Step =
 /// A knot, and the bodies to weld there.
 type Choice = (usize, Option<[usize; 2]>);
 
-fn course(model: &Model, question: &Question, step: &Step) -> Vec<Remedy> {
+fn course(
+    model: &Model,
+    (question, most): (&Question, usize),
+    step: &Step,
+) -> Vec<Remedy> {
     let threads = std::thread::available_parallelism().map_or(1, usize::from);
     let mut model = model.clone();
     let mut taken = BTreeSet::new();
     let mut course: Vec<Remedy> = Vec::new();
-    while course.len() < MOST_STEPS {
+    while course.len() < most {
         let Some(motions) = weighed(&System::new(&model, None, threads)) else { break };
         let system = System::new(&model, None, threads);
         let Some((choice, better)) = step(&system, &motions, &taken) else { break };
@@ -183,7 +189,7 @@ fn fix(
 }
 
 /// Remedies as lines of text: how many steps of each kind it takes, and the first of them.
-pub fn in_words(remedies: &[Remedy], model: &Model) -> Vec<String> {
+pub(super) fn in_words(remedies: &[Remedy], bodies: &[Body]) -> Vec<String> {
     let kind = |fix: bool| {
         let steps = remedies.iter().filter(move |r| (r.cure == Cure::Fix) == fix);
         steps.collect::<Vec<_>>()
@@ -194,7 +200,7 @@ pub fn in_words(remedies: &[Remedy], model: &Model) -> Vec<String> {
         let Some(last) = steps.last() else { continue };
         let end = if last.passes { "it is rigid" } else { "it is not rigid yet" };
         lines.push(format!("with {} {what} {end}:", steps.len()));
-        lines.extend(steps.iter().take(SAID).map(|step| said(step, model)));
+        lines.extend(steps.iter().take(SAID).map(|step| said(step, bodies)));
         if steps.len() > SAID {
             lines.push(format!(
                 "  ... and {} more (--json lists all)",
@@ -208,11 +214,11 @@ pub fn in_words(remedies: &[Remedy], model: &Model) -> Vec<String> {
 /// Steps that are written out.
 const SAID: usize = 8;
 
-fn said(step: &Remedy, model: &Model) -> String {
+fn said(step: &Remedy, bodies: &[Body]) -> String {
     let node = step.node;
     let what = match step.cure {
         Cure::Weld([a, b]) => {
-            let [a, b] = [a, b].map(|body| model.bodies[body]);
+            let [a, b] = [a, b].map(|body| bodies[body]);
             format!("join {a} and {b} at node {node} stiffly")
         }
         Cure::Fix => format!("hold node {node}"),

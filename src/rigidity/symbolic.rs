@@ -231,13 +231,12 @@ fn supernodes(
     let size = |k: usize| start[k + 1] - start[k];
     for (k, rows) in columns.into_iter().enumerate() {
         let below = rows.iter().map(|&row| size(row as usize)).sum();
-        if k > 0 && parents[k - 1] == Some(k) && lengths[k - 1] == lengths[k] + 1 {
-            if let Some((last, _)) = merged.last_mut() {
-                last.end = k + 1;
-                last.width += size(k);
-                (last.rows, last.below) = (rows, below);
-                continue;
-            }
+        let same = k > 0 && parents[k - 1] == Some(k) && lengths[k - 1] == lengths[k] + 1;
+        if let (true, Some((last, _))) = (same, merged.last_mut()) {
+            last.end = k + 1;
+            last.width += size(k);
+            (last.rows, last.below) = (rows, below);
+            continue;
         }
         merge_last(&mut merged);
         let width = size(k);

@@ -3,9 +3,9 @@
 use crate::joint::Joint;
 use crate::rigidity::finding::RigidityFinding;
 use crate::rigidity::mobility::{Mobility, mobility};
-use crate::rigidity::model::Model;
+use crate::rigidity::model::{Body, Model};
 use crate::rigidity::paper::{Pairing, Paper, paper};
-use crate::rigidity::remedy::Remedy;
+use crate::rigidity::remedy::{self, Remedy};
 use crate::rigidity::spectrum::{Modes, least};
 use crate::rigidity::sway::{self, Sway};
 use crate::rigidity::system::System;
@@ -123,7 +123,7 @@ impl Outcome {
 pub struct Verdict {
     outcome: Outcome,
     of: Fingerprint,
-    pub(super) bodies: usize,
+    pub(super) bodies: Vec<Body>,
     pub(super) pins: usize,
     pub(super) mobility: usize,
     pub(super) paper: Option<Paper>,
@@ -145,7 +145,7 @@ pub fn judge(model: &Model, question: &Question, of: Fingerprint) -> Verdict {
     let mut verdict = Verdict {
         outcome: Outcome::Mechanism,
         of,
-        bodies: model.bodies.len(),
+        bodies: model.bodies.clone(),
         pins: model.pins(),
         mobility: 0,
         paper: paper(model, scaled, question.modes, threads).ok(),
@@ -229,6 +229,11 @@ impl Verdict {
         self.outcome
     }
 
+    /// Whether the gate lets it through as it is.
+    pub fn passes(&self) -> bool {
+        matches!(self.outcome, Outcome::Rigid | Outcome::Grey)
+    }
+
     /// What was judged.
     pub fn fingerprint(&self) -> &Fingerprint {
         &self.of
@@ -259,6 +264,11 @@ impl Verdict {
         &self.remedies
     }
 
+    /// What would help as lines of text.
+    pub fn remedies_in_words(&self) -> Vec<String> {
+        remedy::in_words(&self.remedies, &self.bodies)
+    }
+
     /// The same with what would help.
     #[must_use]
     pub fn with_remedies(self, remedies: Vec<Remedy>) -> Self {
@@ -276,16 +286,13 @@ impl Verdict {
         let (play_mm, node, limit_mm) = (self.play_mm, sway.node, sway.limit_mm);
         let pass_mm = self.play_to_pass().unwrap_or(0.0);
         let sway = in_words(sway, play_mm);
+        type Fact = RigidityFinding;
         match self.outcome {
-            Outcome::Flexible => all.push(RigidityFinding::Flexible {
-                play_mm,
-                node,
-                sway,
-                limit_mm,
-                pass_mm,
-            }),
+            Outcome::Flexible => {
+                all.push(Fact::Flexible { play_mm, node, sway, limit_mm, pass_mm });
+            }
             Outcome::Grey => {
-                all.push(RigidityFinding::Grey { play_mm, node, sway, limit_mm, pass_mm })
+                all.push(Fact::Grey { play_mm, node, sway, limit_mm, pass_mm });
             }
             Outcome::Rigid | Outcome::Mechanism => {}
         }

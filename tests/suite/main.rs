@@ -5,6 +5,7 @@
 
 mod architecture;
 mod diagnostics;
+mod gate;
 mod golden;
 mod laws;
 mod peers;

@@ -1,0 +1,233 @@
+//! Exactly known cases and laws.
+
+mod cone;
+mod nets;
+
+use super::*;
+use crate::geometry::{Point3, Vector3};
+use crate::rigidity::mobility::mobility;
+use crate::rigidity::spectrum::{by_inverse, dense, least};
+use crate::rigidity::system::System;
+use nets::{combescure, held_all_round, parallel, radial, torus};
+use serde_json::Value;
+
+fn linkages() -> Vec<(Value, Model)> {
+    let text = include_str!("../../../fixtures/rigidity/linkages.jsonl");
+    text.lines()
+        .map(|line| (serde_json::from_str(line).unwrap(), read_linkage(line).unwrap()))
+        .collect()
+}
+
+fn numbers(value: &Value) -> Vec<f64> {
+    value.as_array().unwrap().iter().map(|x| x.as_f64().unwrap()).collect()
+}
+
+#[test]
+fn known_linkages_have_their_mobility_and_singular_values() {
+    for (case, model) in linkages() {
+        let name = &case["name"];
+        let system = System::new(&model, None, 1);
+        let modes = least(&system, 8).unwrap();
+        let dof = case["dof"].as_u64().unwrap() as usize;
+        assert_eq!(mobility(&system, &modes).unwrap().count, dof, "{name}");
+        let paper = paper::paper(&model, (Pairing::Pin, 1.0), dof + 3, 1).unwrap();
+        for (k, known) in numbers(&case["paper_sigma_next"]).into_iter().enumerate() {
+            let ours = paper.singular_values[dof + k];
+            assert!((ours - known).abs() <= 5e-7 * known, "{name} {ours} {known}");
+        }
+        assert!(paper.singular_values[..dof].iter().all(|s| *s < 1e-12), "{name}");
+    }
+}
+
+fn close(a: f64, b: f64, share: f64) -> bool {
+    (a - b).abs() <= share * a.abs().max(b.abs())
+}
+
+#[test]
+fn dense_and_sparse_agree() {
+    for (n, strips) in [(7, false), (9, true)] {
+        let model = torus(n, strips);
+        for fixed in [None, Some(0)] {
+            let system = System::new(&model, fixed, 1);
+            let dense = dense(&system, 6);
+            let factor = system.factor(None).unwrap();
+            let sparse = by_inverse(&system, &factor, 6);
+            for (a, b) in dense.sigma.iter().zip(&sparse.sigma) {
+                assert!(close(*a, *b, 1e-7), "{:?} {:?}", dense.sigma, sparse.sigma);
+            }
+        }
+    }
+}
+
+fn dof(model: &Model) -> usize {
+    let system = System::new(model, None, 1);
+    mobility(&system, &least(&system, 8).unwrap()).unwrap().count
+}
+
+#[test]
+fn exact_families_have_their_mobility() {
+    for n in [4, 7, 12] {
+        assert_eq!(dof(&parallel(n, false, 0.2)), 2 * n - 3, "parallel {n}");
+        assert_eq!(dof(&radial(n, false, 0.2)), 2 * n - 3, "radial {n}");
+    }
+    for n in [5, 8] {
+        assert_eq!(dof(&parallel(n, true, 0.0)), 1, "trellis {n}");
+        assert_eq!(dof(&parallel(n, true, 0.2)), 0, "jittered {n}");
+        // An assembly by normal equations once called this one rigid.
+        assert_eq!(dof(&radial(n, true, 0.0)), 1, "gnomonic {n}");
+        assert_eq!(dof(&torus(n, false)), 0);
+        assert_eq!(dof(&combescure(n, false)), 0);
+    }
+    assert_eq!(dof(&held_all_round(parallel(7, false, 0.2), 7)), 0, "held all round");
+}
+
+#[test]
+fn nodes_of_valence_three_and_five_leave_twice_v_less_e_less_three() {
+    use crate::design::examples;
+    for name in ["three", "five"] {
+        let mut draft = (examples::named(name).unwrap().draft)();
+        draft.fixed = Some(Vec::new());
+        let (structure, _) =
+            Structure::new(draft, &crate::tolerance::Tolerance::default()).unwrap();
+        let model = Model::of(&structure, Joint::Hinge, &Default::default());
+        let (v, e) = (structure.nodes().len(), structure.fins().len());
+        assert_eq!(dof(&model), 2 * v - e - 3, "{name}");
+    }
+}
+
+use crate::joint::Joint;
+use crate::structure::Structure;
+
+/// The model under a projective map of space, axes cut to their old half length.
+fn projected(model: &Model) -> Model {
+    let map = |p: &Point3| {
+        let w = 1.0 + 0.02 * p.x - 0.013 * p.y + 0.017 * p.z;
+        Point3::new(p.x + 0.2 * p.z, 1.3 * p.y - 0.1 * p.x, 0.8 * p.z + 0.3 * p.y) / w
+    };
+    let mut model = model.clone();
+    for knot in &mut model.knots {
+        let [a, b] = [map(&knot.points[0]), map(&knot.points[1])];
+        let (middle, half) = (nalgebra::center(&a, &b), (b - a).normalize() * 0.1);
+        knot.points = vec![middle - half, middle + half];
+    }
+    model
+}
+
+#[test]
+fn mobility_is_a_projective_invariant() {
+    let cases = [parallel(6, false, 0.2), radial(6, true, 0.0), torus(6, false)];
+    for model in cases {
+        assert_eq!(dof(&model), dof(&projected(&model)));
+    }
+}
+
+fn question() -> Question {
+    Question {
+        play_mm: 0.001,
+        limit: SwayLimit::Share(0.02),
+        modes: 4,
+        pairing: Pairing::Pin,
+        scale: 1.0,
+    }
+}
+
+#[test]
+fn the_verdict_ignores_motion_scale_and_numbering() {
+    let turned = |model: &Model, scale: f64| {
+        let turn = nalgebra::Rotation3::from_euler_angles(0.3, -0.8, 1.9);
+        let mut model = model.clone();
+        let points = model.knots.iter_mut().flat_map(|k| &mut k.points);
+        points.for_each(|p| *p = (turn * *p) * scale + Vector3::new(9.0, -4.0, 2.0));
+        model
+    };
+    let renumbered = |model: &Model| {
+        let last = model.bodies.len() - 1;
+        let bodies = model.bodies.iter().rev().copied().collect();
+        let knots = model.knots.iter().rev().cloned().map(|mut knot| {
+            knot.bodies.iter_mut().for_each(|b| *b = last - *b);
+            knot.bodies.sort_unstable();
+            knot
+        });
+        Model::new(bodies, knots.collect())
+    };
+    for model in [torus(6, false), combescure(6, true), parallel(5, false, 0.2)] {
+        let nothing = Fingerprint::of_nothing;
+        let first = judge(&model, &question(), nothing());
+        let scaled = Question { play_mm: 0.025, ..question() };
+        for (other, question) in
+            [(turned(&model, 25.0), scaled), (renumbered(&model), question())]
+        {
+            let second = judge(&other, &question, nothing());
+            assert_eq!(first.outcome(), second.outcome());
+            assert_eq!(first.mobility(), second.mobility());
+            for (a, b) in first.spectrum.iter().zip(&second.spectrum) {
+                assert!(close(*a, *b, 1e-6) || a.max(*b) < 1e-12, "{a} {b}");
+            }
+        }
+    }
+}
+
+#[test]
+fn one_thread_and_two_give_the_same_bits() {
+    let model = torus(34, false);
+    let sigma = |threads: usize| {
+        let system = System::new(&model, None, threads);
+        let factor = system.factor(None).unwrap();
+        by_inverse(&system, &factor, 4).sigma
+    };
+    assert!(System::new(&model, None, 1).unknowns() > 5000);
+    assert_eq!(sigma(1), sigma(2));
+}
+
+#[test]
+fn greedy_welds_are_as_few_as_the_mobility() {
+    for model in [parallel(5, false, 0.2), radial(5, false, 0.1)] {
+        let question = Question { play_mm: 0.0, ..question() };
+        let steps = remedies(&model, &question, MOST_STEPS);
+        let welds = steps.iter().filter(|r| matches!(r.cure, Cure::Weld(_)));
+        let left: Vec<usize> = welds.map(|r| r.mobility_after).collect();
+        assert_eq!(left, (0..7).rev().collect::<Vec<_>>());
+    }
+}
+
+#[test]
+fn degenerate_models_get_an_answer() {
+    let loose = |bodies: usize| Model::new((0..bodies).map(Body::Link).collect(), vec![]);
+    let nothing = Fingerprint::of_nothing;
+    assert_eq!(judge(&loose(1), &question(), nothing()).mobility(), 0);
+    let two = judge(&loose(2), &question(), nothing());
+    assert_eq!((two.mobility(), two.outcome()), (6, Outcome::Mechanism));
+    let mut held = torus(4, false);
+    held.knots.iter_mut().for_each(|knot| knot.held = true);
+    let held = judge(&held, &question(), nothing());
+    assert_eq!((held.mobility(), held.outcome()), (0, Outcome::Rigid));
+    assert!(held.findings().contains(&RigidityFinding::AllHeld));
+    let mut apart = torus(4, false);
+    let far = torus(4, false);
+    let bodies = apart.bodies.len();
+    for mut knot in far.knots {
+        knot.bodies.iter_mut().for_each(|b| *b += bodies);
+        knot.points.iter_mut().for_each(|p| p.z += 50.0);
+        apart.knots.push(knot);
+    }
+    let apart = Model::new([apart.bodies, far.bodies].concat(), apart.knots);
+    assert_eq!(dof(&apart), 6, "two pieces");
+}
+
+#[test]
+fn bad_linkages_are_told_what_is_wrong() {
+    let cases = [
+        ("{", "bad_linkage"),
+        (r#"{"bodies":0,"r":1,"pins":[]}"#, "body_count"),
+        (r#"{"bodies":2,"r":0,"pins":[]}"#, "no_reach"),
+        (r#"{"bodies":2,"r":1,"pins":[[[0,0,0],[0,0,0],[0,1]]]}"#, "zero_axis"),
+        (r#"{"bodies":2,"r":1,"pins":[[[0,0,0],[0,0,1],[0,2]]]}"#, "no_such_body"),
+        (r#"{"bodies":2,"r":1,"pins":[[[0,0,0],[0,0,1],[1,1]]]}"#, "pin_bodies"),
+    ];
+    for (text, code) in cases {
+        use miette::Diagnostic;
+        let found = read_linkage(text).unwrap_err();
+        let found = found[0].code().unwrap().to_string();
+        assert_eq!(found, format!("rigidity::{code}"), "{text}");
+    }
+}
