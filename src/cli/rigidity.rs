@@ -190,7 +190,7 @@ impl RigidityArgs {
 }
 
 fn linkage(path: &Path) -> Result<Result<Case, Vec<Finding>>, Failure> {
-    let text = input::text(path)?;
+    let text = input::text_of(path)?;
     let model = match rigidity::read_linkage(&text) {
         Ok(model) => model,
         Err(facts) => {

@@ -4,7 +4,6 @@
 
 use finwright::diagnostic::{Severity, passes};
 use finwright::export::PngLook;
-use finwright::gate::approve;
 use finwright::job::{self, Job, Order};
 use finwright::nest::Effort;
 use finwright::sheets::Path;
@@ -136,7 +135,8 @@ impl Valid {
 
     fn make(&self, draft: Draft, template: &Template) -> Outcome {
         let effort = Effort { trials: 1, seed: 0 };
-        let order = Order { draft, template, effort, accepted_flexible: None };
+        let joint = finwright::joint::Joint::Lap;
+        let order = Order { draft, template, joint, effort, accepted_flexible: None };
         let job = job::run(order, &mut ()).unwrap();
         for finding in &job.findings {
             let said = [&finding.code, &finding.message, &finding.help];
@@ -148,8 +148,8 @@ impl Valid {
             return Outcome::NoStructure;
         }
         let _ = report::bill(&job, &template.material.name);
-        match approve(&job.sheets, &job.findings) {
-            Some(sheets) => {
+        match job.approved(joint, template) {
+            Ok(sheets) => {
                 assert_finite(&job);
                 let look = PngLook { px_per_mm: 0.2, ..PngLook::default() };
                 for sheet in *sheets.get() {
@@ -160,7 +160,7 @@ impl Valid {
                 assert!(!export::pdf(sheets.get()).is_empty());
                 Outcome::Cut
             }
-            None => Outcome::Refused,
+            Err(_) => Outcome::Refused,
         }
     }
 }

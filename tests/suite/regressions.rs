@@ -18,7 +18,9 @@ fn template(name: &str) -> Template {
 
 fn made(draft: Draft, template: &Template) -> Job {
     let effort = Effort { trials: 1, seed: 0 };
-    job::run(Order { draft, template, effort, accepted_flexible: None }, &mut ()).unwrap()
+    let joint = finwright::joint::Joint::Lap;
+    job::run(Order { draft, template, joint, effort, accepted_flexible: None }, &mut ())
+        .unwrap()
 }
 
 fn codes(findings: &[Finding]) -> Vec<&str> {
