@@ -71,6 +71,10 @@ pub fn run(order: Order, watch: &mut dyn Watch) -> Result<Job, Interrupted> {
         }
         Err(refused) => return Ok(Job { findings: refused.findings, ..job }),
     };
+    if let Some(finding) = parts::too_small(&structure, &fit(template)) {
+        job.findings.push(finding.into());
+        return Ok(Job { structure: Some(structure), ..job });
+    }
     job.judge(&structure, order.joint, template, watch)?;
     if order.joint != Joint::Lap {
         job.structure = Some(structure);
@@ -79,23 +83,7 @@ pub fn run(order: Order, watch: &mut dyn Watch) -> Result<Job, Interrupted> {
     watch.progress("parts", 0, 1);
     let name = structure.name().to_owned();
     let kerf = Kerf::from_width_mm(template.material.kerf_mm);
-    let fit = fit(template);
-    if let Some(finding) = parts::too_small(&structure, &fit) {
-        job.findings.push(finding.into());
-        return Ok(Job { structure: Some(structure), ..job });
-    }
-    let turns = turns(template);
-    let stock = &job.stock;
-    let fits = |outline: &[Point2]| {
-        let drawn = kerf.compensated(&Contour::polygon(outline.iter().copied()));
-        let drawn = drawn.flattened(ARC_SAGITTA_MM);
-        stock.iter().any(|sheet| nest::fits(&drawn, &turns, sheet).is_some())
-    };
-    let making = Making { fit: &fit, marking: marking(template), fits: &fits };
-    let made = parts::strips(structure, &making);
-    job.findings.extend(made.findings.into_iter().map(Finding::from));
-    job.structure = Some(made.structure);
-    job.parts = made.parts;
+    job.cut_strips(structure, kerf, template);
     if watch.stopped() {
         return Err(Interrupted);
     }
@@ -133,6 +121,22 @@ fn lay(
 }
 
 impl Job {
+    /// Makes the strips into parts.
+    fn cut_strips(&mut self, structure: Structure, kerf: Kerf, template: &Template) {
+        let (fit, turns) = (fit(template), turns(template));
+        let stock = &self.stock;
+        let fits = |outline: &[Point2]| {
+            let drawn = kerf.compensated(&Contour::polygon(outline.iter().copied()));
+            let drawn = drawn.flattened(ARC_SAGITTA_MM);
+            stock.iter().any(|sheet| nest::fits(&drawn, &turns, sheet).is_some())
+        };
+        let making = Making { fit: &fit, marking: marking(template), fits: &fits };
+        let made = parts::strips(structure, &making);
+        self.findings.extend(made.findings.into_iter().map(Finding::from));
+        self.structure = Some(made.structure);
+        self.parts = made.parts;
+    }
+
     /// The sheets, if findings and verdict let them pass; the verdict must be about the
     /// structure as it stands in the job, with this joint and template.
     ///

@@ -9,8 +9,8 @@ use crate::diagnostic::{Finding, passes};
 use crate::job;
 use crate::joint::Joint;
 use crate::rigidity::{
-    self, Fingerprint, Look, MOST_STEPS, Model, Pairing, Question, RigidityFinding,
-    SwayLimit, Verdict,
+    self, Fingerprint, Look, MOST_PAIRED, MOST_STEPS, Model, Pairing, Question,
+    RigidityFinding, SwayLimit, Verdict,
 };
 use crate::structure::Structure;
 use crate::tolerance::Tolerance;
@@ -142,6 +142,9 @@ pub(super) fn rigidity(args: &RigidityArgs, voice: Voice) -> Result<End, Failure
         }
     };
     args.amend(&mut case.question);
+    if let Some(fact) = args.too_many_pairs(case.model.bodies.len()) {
+        return Ok(complain(&fact, &fact.to_string(), args.input.json.then(Vec::new)));
+    }
     let mut verdict = rigidity::judge(&case.model, &case.question, case.fingerprint);
     if args.remedies {
         let remedies = rigidity::remedies(&case.model, &case.question, MOST_STEPS);
@@ -181,6 +184,13 @@ impl RigidityArgs {
             .map_err(|source| JobDirError::Disk { path: path.to_owned(), source }.into())
     }
 
+    fn too_many_pairs(&self, bodies: usize) -> Option<RigidityFinding> {
+        let pairing = self.pairing.name();
+        (self.pairing != Pairing::Pin && bodies > MOST_PAIRED).then_some(
+            RigidityFinding::PairingTooLarge { bodies, pairing, most: MOST_PAIRED },
+        )
+    }
+
     fn amend(&self, question: &mut Question) {
         question.modes = usize::from(self.modes);
         question.pairing = self.pairing;
@@ -194,15 +204,10 @@ fn linkage(path: &Path) -> Result<Result<Case, Vec<Finding>>, Failure> {
     let model = match rigidity::read_linkage(&text) {
         Ok(model) => model,
         Err(facts) => {
-            let first = facts.into_iter().next();
-            let place = path.display();
-            return match first {
-                Some(fact) => {
-                    complain(&fact, &format!("{place}: {fact}"), None);
-                    Err(Failure::Said(End::CouldNotRun))
-                }
-                None => Ok(Err(Vec::new())),
-            };
+            for fact in &facts {
+                complain(fact, &format!("{}: {fact}", path.display()), None);
+            }
+            return Err(Failure::Said(End::CouldNotRun));
         }
     };
     let question = Question {

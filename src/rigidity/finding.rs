@@ -58,6 +58,13 @@ pub enum RigidityFinding {
     )]
     PinBodies { pin: usize, bodies: Vec<usize> },
 
+    #[error("{bodies} bodies are too many for `--pairing {pairing}`")]
+    #[diagnostic(
+        code(rigidity::pairing_too_large),
+        help("up to {most} bodies can be compared so; `--pairing pin` has no limit")
+    )]
+    PairingTooLarge { bodies: usize, pairing: &'static str, most: usize },
+
     #[error("nothing is joined to anything: {bodies} bodies and no pin")]
     #[diagnostic(
         code(rigidity::no_pins),

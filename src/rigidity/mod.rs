@@ -37,7 +37,7 @@ pub use amplify::Bracket;
 pub use finding::RigidityFinding;
 pub use linkage::read_linkage;
 pub use model::{Body, Knot, Model};
-pub use paper::{Discrepancy, Motion, Pairing, Paper};
+pub use paper::{Discrepancy, MOST_PAIRED, Motion, Pairing, Paper};
 pub use picture::{Look, picture};
 pub use remedy::{Cure, FEW_STEPS, MOST_STEPS, Remedy, remedies};
 pub use sway::Sway;

@@ -104,6 +104,10 @@ pub struct Paper {
 /// Up to this many bodies all singular values come from one dense decomposition.
 const DENSE: usize = 48;
 
+/// Bodies that a pairing other than [`Pairing::Pin`] is computed for: its matrix has no
+/// sparse operator here.
+pub const MOST_PAIRED: usize = 100;
+
 /// Computes the paper's figures with body 0 held and no other support.
 ///
 /// # Errors
@@ -116,11 +120,12 @@ pub(super) fn paper(
 ) -> Result<Paper, Singular> {
     let free = scaled(model, scale);
     let matrix = Matrix { model: &free, pairing };
-    let (mut sigma, twists, largest) = if model.bodies.len() <= DENSE {
-        matrix.dense(wanted)
-    } else {
-        matrix.sparse(wanted, threads)?
-    };
+    let (mut sigma, twists, largest) =
+        if pairing != Pairing::Pin || model.bodies.len() <= DENSE {
+            matrix.dense(wanted)
+        } else {
+            matrix.sparse(wanted, threads)?
+        };
     let spins: usize =
         (1..free.bodies.len()).map(|body| 6 - free_rank(&free, body)).sum();
     let far = far_node(&free);
