@@ -32,6 +32,7 @@
 //! assert!(files.iter().any(|(path, _)| path == "sheets/sheet-01.dxf"));
 //! ```
 
+pub mod advice;
 pub mod cli;
 pub mod design;
 pub mod diagnostic;

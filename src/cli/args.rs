@@ -168,6 +168,10 @@ pub struct CheckArgs {
     /// What to check.
     #[command(flatten)]
     pub input: InputArgs,
+
+    /// Find the smallest scale at which all checks pass, and what binds
+    #[arg(long)]
+    pub advise: bool,
 }
 
 /// Actions of `template`.

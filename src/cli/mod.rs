@@ -1,5 +1,6 @@
 //! The command: what was typed, what is read and written, what is said.
 
+mod advise;
 mod args;
 mod input;
 mod jobdir;

@@ -1,5 +1,6 @@
 //! The commands, and the only place that writes files.
 
+use crate::cli::advise;
 use crate::cli::args::{
     Cli, Command, EffortLevel, ExampleAction, InputArgs, MakeArgs, TemplateAction,
 };
@@ -73,6 +74,7 @@ pub fn run(cli: Cli) -> ExitCode {
     };
     let end = match cli.command {
         Command::Make(args) => make(&args, voice),
+        Command::Check(args) if args.advise => advise::run(&args.input, voice),
         Command::Check(args) => check(&args.input, voice),
         Command::Rigidity(args) => rigidity::rigidity(&args, voice),
         Command::Template { action } => templates(action),

@@ -22,6 +22,7 @@ const ORDER: &[&str] = &[
     "gate",
     "export",
     "job",
+    "advice",
     "report",
     "cli",
 ];
