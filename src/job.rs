@@ -87,8 +87,36 @@ pub fn run(order: Order, watch: &mut dyn Watch) -> Result<Job, Interrupted> {
     if watch.stopped() {
         return Err(Interrupted);
     }
+    on_sheets(job, template, name, &order.effort, watch)
+}
+
+/// Takes the coupon of a template through the stages: pieces that tell kerf and clearance.
+///
+/// # Errors
+/// [`Interrupted`] if the watch stopped the work.
+pub fn coupon(
+    template: &Template,
+    effort: &Effort,
+    watch: &mut dyn Watch,
+) -> Result<Job, Interrupted> {
+    let thickness = template.material.thickness_mm;
+    let radii = [template.bend.model, template.bend.long_term].map(|r| r * thickness);
+    let parts = parts::coupon(&fit(template), radii);
+    let job = Job { stock: stock(template), parts, ..Job::default() };
+    on_sheets(job, template, "coupon".to_owned(), effort, watch)
+}
+
+/// Nests the parts of a job and says what the laser does.
+fn on_sheets(
+    mut job: Job,
+    template: &Template,
+    name: String,
+    effort: &Effort,
+    watch: &mut dyn Watch,
+) -> Result<Job, Interrupted> {
+    let kerf = Kerf::from_width_mm(template.material.kerf_mm);
     let shapes: Vec<Shape> = job.parts.iter().map(|p| shape(p, kerf, template)).collect();
-    lay(&mut job, &shapes, &order.effort, watch)?;
+    lay(&mut job, &shapes, effort, watch)?;
     watch.progress("sheets", 0, 1);
     let frame = frame(template, name, job.accepted_flexible.as_deref());
     job.sheets = sheets::sheets(&Laying {
@@ -133,6 +161,8 @@ impl Job {
         let making = Making { fit: &fit, marking: marking(template), fits: &fits };
         let made = parts::strips(structure, &making);
         self.findings.extend(made.findings.into_iter().map(Finding::from));
+        let tight = parts::tight_insertions(&made.structure, &made.parts, &fit);
+        self.findings.extend(tight.into_iter().map(Finding::from));
         self.structure = Some(made.structure);
         self.parts = made.parts;
     }

@@ -1,5 +1,6 @@
 //! What was typed.
 
+use crate::cli::coupon::{self, CouponArgs};
 use crate::cli::rigidity;
 use crate::geometry::{Point3, Vector3};
 use crate::joint::Joint;
@@ -40,6 +41,10 @@ pub enum Command {
     /// Say whether a structure is rigid, and what would help if it is not
     #[command(after_help = rigidity::HELP)]
     Rigidity(rigidity::RigidityArgs),
+
+    /// Make a kerf and fit coupon for a material, or read one
+    #[command(after_help = coupon::HELP)]
+    Coupon(CouponArgs),
 
     /// Show materials and machines
     #[command(after_help = TEMPLATE_HELP)]

@@ -2,6 +2,7 @@
 
 mod advise;
 mod args;
+mod coupon;
 mod input;
 mod jobdir;
 mod rigidity;

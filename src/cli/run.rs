@@ -4,6 +4,7 @@ use crate::cli::advise;
 use crate::cli::args::{
     Cli, Command, EffortLevel, ExampleAction, InputArgs, MakeArgs, TemplateAction,
 };
+use crate::cli::coupon;
 use crate::cli::input::{self, Input, InputError};
 use crate::cli::jobdir::{self, JobDirError, JobFile};
 use crate::cli::rigidity;
@@ -11,10 +12,12 @@ use crate::cli::show::{self, Terminal, Voice};
 use crate::design::examples;
 use crate::diagnostic::{Finding, Place, passes};
 use crate::export;
+use crate::gate::Approved;
 use crate::job::{self, Interrupted, Job, Order};
 use crate::joint::Joint;
 use crate::nest::Effort;
 use crate::report::{self, Source};
+use crate::sheets::Sheet;
 use crate::structure::{Structure, write_json};
 use crate::template::{self, Template};
 use crate::tolerance::Tolerance;
@@ -69,6 +72,7 @@ pub fn run(cli: Cli) -> ExitCode {
     let voice = Voice { quiet: cli.quiet, verbose: cli.verbose };
     let json = match &cli.command {
         Command::Make(args) => args.input.json,
+        Command::Coupon(args) => args.json,
         Command::Check(args) => args.input.json,
         _ => false,
     };
@@ -77,6 +81,7 @@ pub fn run(cli: Cli) -> ExitCode {
         Command::Check(args) if args.advise => advise::run(&args.input, voice),
         Command::Check(args) => check(&args.input, voice),
         Command::Rigidity(args) => rigidity::rigidity(&args, voice),
+        Command::Coupon(args) => coupon::run(&args, voice),
         Command::Template { action } => templates(action),
         Command::Example { action } => example(action),
         Command::Completions { shell } => {
@@ -199,17 +204,8 @@ fn make(args: &MakeArgs, voice: Voice) -> Result<End, Failure> {
         args.output.clone().unwrap_or_else(|| Path::new("out").join(folder_name(name)));
     let manifest = ordered.manifest(&args.input);
     let mut files = ordered.files(&manifest);
-    let approved = job.approved(args.input.joint, &ordered.template);
-    let end = match &approved {
-        Ok(sheets) if !sheets.get().is_empty() => {
-            files.extend(export::cut_files(sheets).into_iter().map(named));
-            End::Done
-        }
-        _ => {
-            files.extend(export::stamped_previews(&job.sheets).into_iter().map(named));
-            End::Refused
-        }
-    };
+    let approved = job.approved(args.input.joint, &ordered.template).ok();
+    let end = draw(job, approved.as_ref(), &mut files);
     ordered.terminal.finish();
     if ordered.terminal.stopped() {
         return Err(Failure::Interrupted);
@@ -227,6 +223,20 @@ fn make(args: &MakeArgs, voice: Voice) -> Result<End, Failure> {
     Ok(end)
 }
 
+/// Adds the files for the laser if nothing forbids it, else stamped pictures.
+pub(super) fn draw(
+    job: &Job,
+    approved: Option<&Approved<&Vec<Sheet>>>,
+    files: &mut Vec<JobFile>,
+) -> End {
+    if let Some(sheets) = approved.filter(|sheets| !sheets.get().is_empty()) {
+        files.extend(export::cut_files(sheets).into_iter().map(named));
+        return End::Done;
+    }
+    files.extend(export::stamped_previews(&job.sheets).into_iter().map(named));
+    End::Refused
+}
+
 /// A name that can be a folder.
 fn folder_name(name: &str) -> String {
     // Most disks take 255 bytes; a character may have four.
@@ -237,7 +247,7 @@ fn folder_name(name: &str) -> String {
     if name.is_empty() { "job".to_owned() } else { name.to_owned() }
 }
 
-fn named((path, bytes): (String, Vec<u8>)) -> JobFile {
+pub(super) fn named((path, bytes): (String, Vec<u8>)) -> JobFile {
     JobFile { path, bytes }
 }
 

@@ -185,6 +185,20 @@ pub enum PartFinding {
     },
 
     #[error(
+        "{part} has to give way while it is put in after node {node}: its axes lean from each \
+         other, and it bends to a radius of {radius_mm:.0} mm, {ratio:.0} times the thickness"
+    )]
+    #[diagnostic(
+        code(parts::insertion_tight),
+        severity(Warning),
+        help(
+            "{limit} times is what a model stands (`bend.model`): zip it in slowly from one \
+             end, raise `material.clearance_mm`, make the fins less deep, or enlarge it"
+        )
+    )]
+    InsertionTight { part: String, node: usize, radius_mm: f64, ratio: f64, limit: f64 },
+
+    #[error(
         "{part} is {length_mm:.0} mm long, fits no sheet, and no fin of it can take a splice"
     )]
     #[diagnostic(
@@ -225,6 +239,7 @@ impl Located for PartFinding {
             | Self::WebThin { part, node, .. }
             | Self::BendBreaks { part, node, .. }
             | Self::BendTight { part, node, .. }
+            | Self::InsertionTight { part, node, .. }
             | Self::OutlineCrossesItself { part, node } => {
                 Place::part(part.clone()).at(*node)
             }

@@ -4,9 +4,11 @@
 //! them, splices what is too long for the stock and writes on each part what the maker
 //! needs. Kerf is not its business, nor where parts lie on a sheet.
 
+mod coupon;
 mod finding;
 mod fit;
 mod hold;
+mod insertion;
 mod joint;
 mod mark;
 mod outline;
@@ -17,9 +19,11 @@ mod splice;
 mod strength;
 mod unfold;
 
+pub use coupon::{Fitted, Mark as CouponMark, coupon};
 pub use finding::PartFinding;
 pub use fit::Fit;
 pub use hold::lapped;
+pub use insertion::{Insertion, insertion};
 pub use joint::{End, Joinery, Joints, Opening, Slit, join};
 pub use mark::{FoldMarks, Marking};
 pub use outline::{Closure, Piece, outline};
@@ -190,13 +194,13 @@ fn piece_letter(k: usize) -> String {
 fn name_partners(parts: &mut [Part], names: &[String]) {
     let mut at: BTreeMap<(usize, usize), String> = BTreeMap::new();
     for part in parts.iter() {
-        let Body::Strip(body) = &part.body;
+        let Body::Strip(body) = &part.body else { continue };
         at.extend(
             body.slits.iter().map(|(s, _)| ((body.strip, s.node), part.id.clone())),
         );
     }
     for part in parts {
-        let Body::Strip(body) = &mut part.body;
+        let Body::Strip(body) = &mut part.body else { continue };
         for (slit, partner) in &mut body.slits {
             let piece = at.get(&(slit.partner, slit.node));
             *partner = piece.unwrap_or(&names[slit.partner]).clone();
@@ -204,8 +208,30 @@ fn name_partners(parts: &mut [Part], names: &[String]) {
     }
 }
 
+/// Strips that bend more tightly while they are put in than a model should.
+pub fn tight_insertions(
+    structure: &Structure,
+    parts: &[Part],
+    fit: &Fit,
+) -> Vec<PartFinding> {
+    let tight = parts.iter().filter_map(|part| {
+        let Body::Strip(body) = &part.body else { return None };
+        let (radius_mm, node) = insertion(structure, body, fit.clearance)?.bend?;
+        let ratio = radius_mm / fit.thickness;
+        let (part, limit) = (part.id.clone(), fit.bend_model);
+        (ratio < limit).then_some(PartFinding::InsertionTight {
+            part,
+            node,
+            radius_mm,
+            ratio,
+            limit,
+        })
+    });
+    tight.collect()
+}
+
 fn crossing_outline(part: &Part) -> Option<PartFinding> {
-    let Body::Strip(body) = &part.body;
+    let Body::Strip(body) = &part.body else { return None };
     let simple = predicates::is_simple(&part.region.outline.flattened(ARC_SAGITTA_MM));
     let node = body.axes[0].node;
     (!simple).then(|| PartFinding::OutlineCrossesItself { part: part.id.clone(), node })

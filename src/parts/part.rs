@@ -25,6 +25,8 @@ pub struct Part {
 pub enum Body {
     /// A run of fins.
     Strip(StripBody),
+    /// A piece to try a material with, no part of a structure.
+    Coupon,
 }
 
 /// A run of fins, flat.

@@ -23,12 +23,15 @@ pub fn bill(job: &Job, material: &str) -> String {
         let sheet = sheets.get(&index).copied().unwrap_or_default();
         let [length, height] = extent(part);
         let cut: f64 = part.region.contours().map(Contour::length).sum();
-        let Body::Strip(body) = &part.body;
-        let nodes: Vec<String> = body.axes.iter().map(|a| a.node.to_string()).collect();
+        let (kind, axes) = match &part.body {
+            Body::Strip(body) => ("strip", body.axes.as_slice()),
+            Body::Coupon => ("coupon", [].as_slice()),
+        };
+        let nodes: Vec<String> = axes.iter().map(|a| a.node.to_string()).collect();
         // Writing to a string cannot fail.
         let _ = writeln!(
             text,
-            "{},strip,{},{},{length:.1},{height:.1},{:.1},{cut:.1},{sheet},{}",
+            "{},{kind},{},{},{length:.1},{height:.1},{:.1},{cut:.1},{sheet},{}",
             part.id,
             part.quantity,
             quoted(material),

@@ -5,7 +5,7 @@ use crate::geometry::{Contour, Point2};
 use crate::job::Job;
 use crate::joint::Joint;
 use crate::nest::{NestedSheet, Stock};
-use crate::parts::{Body, FlatAxis, Opening, Part, Slit, StripBody};
+use crate::parts::{self, Body, FlatAxis, Opening, Part, Slit, StripBody};
 use crate::sheets::{Operation, Path, Sheet};
 use crate::template::Template;
 use crate::tolerance::ARC_SAGITTA_MM;
@@ -36,6 +36,7 @@ pub fn manifest(job: &Job, source: &Source) -> Value {
     json!({
         "format": "finwright-job",
         "version": 1,
+        "kind": if job.structure.is_some() { "structure" } else { "coupon" },
         "generator": concat!("finwright ", env!("CARGO_PKG_VERSION")),
         "input": {"name": source.input, "sha256": source.input_sha256},
         "template": {"name": source.template.name, "sha256": source.template_sha256},
@@ -54,7 +55,7 @@ pub fn manifest(job: &Job, source: &Source) -> Value {
         "findings": job.findings,
         "parts": job.parts.iter().map(part).collect::<Vec<_>>(),
         "sheets": sheets(job),
-        "assembly": assembly(&job.parts),
+        "assembly": assembly(job, source.template),
         "totals": totals(job, source.template),
     })
 }
@@ -91,18 +92,21 @@ fn stock(stock: &Stock) -> Value {
 }
 
 fn part(part: &Part) -> Value {
-    let Body::Strip(body) = &part.body;
+    let (kind, strip) = match &part.body {
+        Body::Strip(body) => ("strip", Some(strip(body))),
+        Body::Coupon => ("coupon", None),
+    };
     let cut_length: f64 = part.region.contours().map(Contour::length).sum();
     json!({
         "id": part.id,
-        "kind": "strip",
+        "kind": kind,
         "quantity": part.quantity,
         "label": part.id,
         "outline": ring(&part.region.outline),
         "holes": part.region.holes.iter().map(ring).collect::<Vec<_>>(),
         "area": mm(part.region.area()),
         "cut_length": mm(cut_length),
-        "strip": strip(body),
+        "strip": strip,
     })
 }
 
@@ -166,9 +170,12 @@ fn sheet_entry(job: &Job, sheet: &Sheet, nested: &NestedSheet) -> Value {
 
 /// One step per part, in the order of ranks: each strip goes in from above, its slits open
 /// at the bottom onto the strips that stand already.
-fn assembly(parts: &[Part]) -> Vec<Value> {
-    let step = |(k, part): (usize, &Part)| {
-        let Body::Strip(body) = &part.body;
+fn assembly(job: &Job, template: &Template) -> Vec<Value> {
+    let strips = job.parts.iter().filter_map(|part| match &part.body {
+        Body::Strip(body) => Some((part, body)),
+        Body::Coupon => None,
+    });
+    let step = |(k, (part, body)): (usize, (&Part, &StripBody))| {
         let onto = body.slits.iter().filter(|(slit, _)| slit.from == Opening::Bottom);
         let onto =
             onto.map(|(slit, partner)| json!({"node": slit.node, "part": partner}));
@@ -178,9 +185,27 @@ fn assembly(parts: &[Part]) -> Vec<Value> {
             "rank": body.rank + 1,
             "from": "above",
             "onto": onto.collect::<Vec<_>>(),
+            "insertion": insertion(job, body, template),
         })
     };
-    parts.iter().enumerate().map(step).collect()
+    strips.enumerate().map(step).collect()
+}
+
+/// How a strip goes in, by numbers; `None` for one that goes onto nothing.
+fn insertion(job: &Job, body: &StripBody, template: &Template) -> Option<Value> {
+    let material = &template.material;
+    let way = parts::insertion(job.structure.as_ref()?, body, material.clearance_mm)?;
+    Some(json!({
+        "mode": if way.is_rigid { "push" } else { "zip" },
+        "spread_deg": degrees(way.spread),
+        "sideways_mm": mm(way.sideways),
+        "clearance_mm": material.clearance_mm,
+        "bend": way.bend.map(|(radius, node)| json!({
+            "after_node": node,
+            "radius_mm": rounded(radius, 10.0),
+            "over_thickness": rounded(radius / material.thickness_mm, 10.0),
+        })),
+    }))
 }
 
 /// Lengths, time, mass and cost of a whole job.

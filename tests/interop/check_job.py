@@ -28,7 +28,8 @@ def check(folder: Path) -> Report:
     check_shape(job, report)
     if report.misses():
         return report
-    for step in (_open, check_files, check_pictures, check_refold, check_slits, check_sheets):
+    in_space = () if job.is_coupon else (check_refold, check_slits)
+    for step in (_open, check_files, check_pictures, *in_space, check_sheets):
         _run(step, job, report)
     return report
 

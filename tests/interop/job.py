@@ -59,11 +59,13 @@ class Job:
     def __init__(self, folder: Path) -> None:
         self.folder = folder
         self.manifest = json.loads((folder / "job.json").read_text("utf-8"))
-        self.structure = json.loads((folder / "structure.json").read_text("utf-8"))
+        # A coupon is no part of a structure.
+        self.is_coupon = self.manifest.get("kind") == "coupon"
+        self.structure = None if self.is_coupon else json.loads((folder / "structure.json").read_text("utf-8"))
 
     def open(self) -> None:
         """Called when the manifest has been found to be of the right shape."""
-        self.space = Space(self.structure)
+        self.space = Space(self.structure) if self.structure else None
         self.parts = {part["id"]: part for part in self.manifest["parts"]}
         self.regions = {name: _region(part) for name, part in self.parts.items()}
         self.strips = {name: _strip(part) for name, part in self.parts.items() if part.get("strip")}

@@ -85,6 +85,13 @@ class Runner:
         if again:
             self.compare(case, folder)
 
+    def coupon(self) -> None:
+        """The kerf and fit coupon passes the same checks of its files and sheets."""
+        made = self.finwright("coupon", "-q", "-o", "coupon")
+        checked = subprocess.run([sys.executable, str(HERE / "check_job.py"), "coupon"], cwd=self.scratch, capture_output=True, text=True, check=False)
+        print(checked.stdout + checked.stderr, end="")
+        self.note("coupon", made.returncode == 0 and checked.returncode == 0, made.stderr.strip()[-300:])
+
     def compare(self, case: Case, folder: str) -> None:
         made = self.make(case, f"{folder}-again")
         if made.returncode != 0:
@@ -130,6 +137,8 @@ def main() -> int:
     with tempfile.TemporaryDirectory(prefix="finwright-interop-") as scratch:
         extra = ["--effort", options.effort] if options.effort else []
         runner = Runner(options.binary.resolve(), Path(scratch), extra)
+        if options.only in "coupon":
+            runner.coupon()
         for case in cases(runner, options.meshes):
             if options.only in case.name:
                 runner.run(case, again=case.name == "default")

@@ -27,6 +27,7 @@ impl Sizes {
         let bodies = || {
             job.parts.iter().map(|part| match &part.body {
                 Body::Strip(body) => body,
+                Body::Coupon => panic!("a structure has no coupons"),
             })
         };
         let sorted = |values: Vec<f64>| {
