@@ -10,6 +10,7 @@
 //! 5. [`sheets`]: what the laser does, kerf included, independent of any format.
 //! 6. [`gate`]: only what nothing forbids, the verdict first, is [`Approved`](gate::Approved).
 //! 7. [`export`]: DXF, SVG, PDF and PNG. [`report`]: the manifest and the bill of parts.
+//! 8. [`proof`]: the written bytes back to parts, folded and compared with the structure.
 //!
 //! [`job`] runs them; [`cli`] is the only room that touches the world. Units are
 //! millimetres and radians inside.
@@ -44,6 +45,7 @@ pub mod joint;
 pub mod lettering;
 pub mod nest;
 pub mod parts;
+pub mod proof;
 pub mod report;
 pub mod rigidity;
 pub mod sheets;

@@ -103,3 +103,31 @@ pub const STANDS_STILL: f64 = 1e-6;
 
 /// Figures of rigidity below this are rounding and are written as 0.
 pub const ROUNDING: f64 = 1e-13;
+
+/// Ends of lines that count as joined when a drawing is read back, mm.
+pub const JOINED_MM: f64 = 0.01;
+
+/// How far a drawn corner may be off the listed shape to count as the same corner when a
+/// part is looked for, mm.
+pub const SAME_SHAPE_MM: f64 = 0.02;
+
+/// How far a drawn line may be off where it should be, mm: slits, corners, axes.
+pub const PROOF_LIMIT_MM: f64 = 0.01;
+
+/// How far folds may be off, degrees.
+pub const PROOF_LIMIT_DEG: f64 = 0.001;
+
+/// How far a corner, wall or hole is searched from where it should be, mm.
+pub const PROOF_REACH_MM: f64 = 1.5;
+
+/// How far a part may lie from where it is listed and count as in its place, mm.
+pub const IN_PLACE_MM: f64 = 0.01;
+
+/// How far lengths on one layer may differ between formats, as a share.
+pub const SAME_LENGTH: f64 = 2e-4;
+
+/// Slack of spacing and margin in files read back, mm.
+pub const SPACING_SLACK_MM: f64 = 1e-3;
+
+/// Scales of a whole drawing that differ by less are taken for equal.
+pub const SAME_SCALE: f64 = 2e-3;

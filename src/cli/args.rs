@@ -2,6 +2,7 @@
 
 use crate::cli::coupon::{self, CouponArgs};
 use crate::cli::rigidity;
+use crate::cli::verify::{self, VerifyArgs};
 use crate::geometry::{Point3, Vector3};
 use crate::joint::Joint;
 use crate::structure::AxisRule;
@@ -41,6 +42,10 @@ pub enum Command {
     /// Say whether a structure is rigid, and what would help if it is not
     #[command(after_help = rigidity::HELP)]
     Rigidity(rigidity::RigidityArgs),
+
+    /// Read the files of a job back, fold the parts and compare with the structure
+    #[command(after_help = verify::HELP)]
+    Verify(VerifyArgs),
 
     /// Make a kerf and fit coupon for a material, or read one
     #[command(after_help = coupon::HELP)]

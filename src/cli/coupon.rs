@@ -69,7 +69,7 @@ fn make(args: &CouponArgs, template: &Template, voice: Voice) -> Result<End, Fai
         scale: "1:1",
         joint: Joint::Lap,
     };
-    let manifest = report::manifest(&job, &source);
+    let mut manifest = report::manifest(&job, &source);
     let pretty = serde_json::to_string_pretty(&manifest).unwrap_or_default() + "\n";
     let bill = report::bill(&job, &template.material.name);
     let mut files = vec![
@@ -77,7 +77,7 @@ fn make(args: &CouponArgs, template: &Template, voice: Voice) -> Result<End, Fai
         named(("parts.csv".to_owned(), bill.into_bytes())),
     ];
     let approved = approve_loose(&job.sheets, &job.findings);
-    let end = draw(&job, approved.as_ref(), &mut files);
+    let end = draw(&job, approved.as_ref(), &mut files, &mut manifest, voice);
     jobdir::write(&dir, &files)?;
     if args.json {
         print(&format!("{manifest}\n"));

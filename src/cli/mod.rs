@@ -8,6 +8,7 @@ mod jobdir;
 mod rigidity;
 mod run;
 mod show;
+mod verify;
 
 pub use args::Cli;
 pub use run::run;

@@ -9,6 +9,7 @@ use crate::cli::input::{self, Input, InputError};
 use crate::cli::jobdir::{self, JobDirError, JobFile};
 use crate::cli::rigidity;
 use crate::cli::show::{self, Terminal, Voice};
+use crate::cli::verify::{self, VerifyError, prove_before_writing};
 use crate::design::examples;
 use crate::diagnostic::{Finding, Place, passes};
 use crate::export;
@@ -44,6 +45,7 @@ pub(super) enum End {
 pub(super) enum Failure {
     Input(InputError),
     JobDir(JobDirError),
+    Verify(VerifyError),
     Interrupted,
     /// What was wrong has been said.
     Said(End),
@@ -61,6 +63,12 @@ impl From<JobDirError> for Failure {
     }
 }
 
+impl From<VerifyError> for Failure {
+    fn from(error: VerifyError) -> Self {
+        Self::Verify(error)
+    }
+}
+
 impl From<Interrupted> for Failure {
     fn from(_: Interrupted) -> Self {
         Self::Interrupted
@@ -72,6 +80,7 @@ pub fn run(cli: Cli) -> ExitCode {
     let voice = Voice { quiet: cli.quiet, verbose: cli.verbose };
     let json = match &cli.command {
         Command::Make(args) => args.input.json,
+        Command::Verify(args) => args.json,
         Command::Coupon(args) => args.json,
         Command::Check(args) => args.input.json,
         _ => false,
@@ -82,6 +91,7 @@ pub fn run(cli: Cli) -> ExitCode {
         Command::Check(args) => check(&args.input, voice),
         Command::Rigidity(args) => rigidity::rigidity(&args, voice),
         Command::Coupon(args) => coupon::run(&args, voice),
+        Command::Verify(args) => verify::run(&args, voice),
         Command::Template { action } => templates(action),
         Command::Example { action } => example(action),
         Command::Completions { shell } => {
@@ -95,6 +105,10 @@ pub fn run(cli: Cli) -> ExitCode {
             complain(&error, &error.to_string(), json.then(|| error.findings()))
         }
         Failure::JobDir(error) => {
+            let findings = || vec![Finding::new(&error, Place::default())];
+            complain(&error, &error.to_string(), json.then(findings))
+        }
+        Failure::Verify(error) => {
             let findings = || vec![Finding::new(&error, Place::default())];
             complain(&error, &error.to_string(), json.then(findings))
         }
@@ -202,10 +216,10 @@ fn make(args: &MakeArgs, voice: Voice) -> Result<End, Failure> {
     let name = job.structure.as_ref().map(Structure::name).unwrap_or_default();
     let dir =
         args.output.clone().unwrap_or_else(|| Path::new("out").join(folder_name(name)));
-    let manifest = ordered.manifest(&args.input);
+    let mut manifest = ordered.manifest(&args.input);
     let mut files = ordered.files(&manifest);
     let approved = job.approved(args.input.joint, &ordered.template).ok();
-    let end = draw(job, approved.as_ref(), &mut files);
+    let end = draw(job, approved.as_ref(), &mut files, &mut manifest, voice);
     ordered.terminal.finish();
     if ordered.terminal.stopped() {
         return Err(Failure::Interrupted);
@@ -223,15 +237,24 @@ fn make(args: &MakeArgs, voice: Voice) -> Result<End, Failure> {
     Ok(end)
 }
 
-/// Adds the files for the laser if nothing forbids it, else stamped pictures.
+/// Adds the files for the laser if nothing forbids it and they can be proved, else stamped
+/// pictures.
 pub(super) fn draw(
     job: &Job,
     approved: Option<&Approved<&Vec<Sheet>>>,
     files: &mut Vec<JobFile>,
+    manifest: &mut serde_json::Value,
+    voice: Voice,
 ) -> End {
     if let Some(sheets) = approved.filter(|sheets| !sheets.get().is_empty()) {
+        let kept = files.len();
         files.extend(export::cut_files(sheets).into_iter().map(named));
-        return End::Done;
+        let found = prove_before_writing(files, manifest);
+        voice.findings(&found);
+        if passes(&found) {
+            return End::Done;
+        }
+        files.truncate(kept);
     }
     files.extend(export::stamped_previews(&job.sheets).into_iter().map(named));
     End::Refused

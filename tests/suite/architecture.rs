@@ -21,6 +21,7 @@ const ORDER: &[&str] = &[
     "sheets",
     "gate",
     "export",
+    "proof",
     "job",
     "advice",
     "report",

@@ -10,6 +10,7 @@ mod golden;
 mod laws;
 mod peers;
 mod plane;
+mod proof;
 mod refusals;
 mod regressions;
 mod spoilt;

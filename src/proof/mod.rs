@@ -1,0 +1,320 @@
+//! The written bytes back to parts, the parts back to space, both against the structure.
+//!
+//! [`prove`] knows nothing of how a job was made: it takes the files of a job directory,
+//! reads DXF, SVG and PDF each for itself, takes the kerf out of the lines, finds every part
+//! of `job.json` by its shape, measures axes and slits on the outline, folds the strips at
+//! their axes and sets them on the axes of `structure.json`. What a slit must be is worked
+//! out from the structure's angles and the sheet's thickness.
+//!
+//! It does not fold connectors (discs, hubs): parts without axes are proved as shapes only,
+//! [`Worst::parts`] counts them too. A bent strip is taken as sharply folded at its axes.
+
+mod figures;
+mod finding;
+mod fit;
+mod label;
+mod layout;
+mod lines;
+mod manifest;
+mod matching;
+mod measure;
+mod outline;
+mod read;
+mod refold;
+mod shape;
+mod sheets;
+mod strips;
+
+pub use figures::{NodeFigure, PartFigure, SlitFigure, Worst};
+pub use finding::{ProofFinding, Spot};
+pub use read::DrawingError;
+
+use crate::diagnostic::{Finding, Place};
+use crate::structure::{AxisRule, Structure, read_json};
+use crate::tolerance::{PROOF_LIMIT_DEG, PROOF_LIMIT_MM, SAME_SHAPE_MM, Tolerance};
+use figures::micro;
+use lines::differences;
+use manifest::Manifest;
+use miette::Diagnostic;
+use serde_json::{Value, json};
+use sha2::{Digest, Sha256};
+use sheets::{Files, Read};
+use std::collections::{BTreeMap, BTreeSet};
+use thiserror::Error;
+
+/// The files of a job directory by their paths inside it.
+pub type JobFiles = BTreeMap<String, Vec<u8>>;
+
+/// Why a directory cannot be proved at all.
+#[derive(Debug, Clone, PartialEq, Eq, Error, Diagnostic)]
+#[allow(missing_docs, reason = "the messages say it")]
+pub enum ProofError {
+    #[error("there is no {file}")]
+    #[diagnostic(
+        code(job::not_a_job),
+        help("give the folder that `finwright make` wrote")
+    )]
+    NoFile { file: &'static str },
+
+    #[error("{file}: {message}")]
+    #[diagnostic(
+        code(job::bad_manifest),
+        help("job.json and structure.json must be as they were written")
+    )]
+    BadFile { file: &'static str, message: String },
+
+    #[error("the job was refused: it has no cut files")]
+    #[diagnostic(
+        code(job::refused),
+        help("the findings in its job.json say why; mend them and make it again")
+    )]
+    Refused,
+}
+
+/// What the files of a job prove.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Proof {
+    /// The worst figures of each format.
+    pub worst: Vec<Worst>,
+    /// Nodes, as measured in the DXF files.
+    pub nodes: Vec<NodeFigure>,
+    /// Slits, as measured in the DXF files.
+    pub slits: Vec<SlitFigure>,
+    /// Parts, as found in the DXF files.
+    pub parts: Vec<PartFigure>,
+    /// SHA-256 of the files that were read, by path.
+    pub files: BTreeMap<String, String>,
+    /// What is wrong.
+    pub findings: Vec<Finding>,
+}
+
+impl Proof {
+    /// Limits and the worst figures, for `job.json`.
+    pub fn summary(&self) -> Value {
+        json!({
+            "limits": {
+                "axes_and_slits_mm": PROOF_LIMIT_MM,
+                "folds_deg": PROOF_LIMIT_DEG,
+                "outline_mm": SAME_SHAPE_MM,
+            },
+            "worst": self.worst,
+            "files": self.files,
+        })
+    }
+
+    /// Everything, for `verify --json`.
+    pub fn report(&self) -> Value {
+        let mut report = self.summary();
+        report["passes"] = crate::diagnostic::passes(&self.findings).into();
+        report["findings"] = json!(self.findings);
+        report["nodes"] = json!(self.nodes);
+        report["slits"] = json!(self.slits);
+        report["parts"] = json!(self.parts);
+        report
+    }
+}
+
+/// Paths of the files that a proof reads, as far as a manifest names them.
+pub const ALWAYS_READ: [&str; 3] = ["job.json", "structure.json", PDF];
+
+const PDF: &str = "sheets/sheets.pdf";
+
+/// Proves the files of a job.
+///
+/// # Errors
+/// [`ProofError`] if there is no manifest or no structure to prove against. Everything
+/// else that is wrong is a finding.
+pub fn prove(files: &JobFiles) -> Result<Proof, ProofError> {
+    let manifest = read_manifest(files)?;
+    let structure = read_structure(files, &manifest)?;
+    let mut facts = Vec::new();
+    let mut proof = Proof::default();
+    for (path, bytes) in files.iter().filter(|(path, _)| is_proved(path)) {
+        let digest: String =
+            Sha256::digest(bytes).iter().map(|byte| format!("{byte:02x}")).collect();
+        if manifest.proof.files.get(path).is_some_and(|written| *written != digest) {
+            facts.push(ProofFinding::FileChanged { spot: Spot::file(path) });
+        }
+        proof.files.insert(path.clone(), digest);
+    }
+    let reads: Vec<Read> = formats(&manifest, files, &mut facts)
+        .into_iter()
+        .map(|files| Read::new(&manifest, files))
+        .collect();
+    let mut known = BTreeSet::new();
+    for (k, read) in reads.iter().enumerate() {
+        let mut found = read.findings();
+        if k > 0 {
+            found.extend(differences(&reads[0], read));
+        }
+        let mut worst = Worst {
+            format: read.files.format,
+            parts: read.found.len(),
+            ..Worst::default()
+        };
+        if let Some(structure) = &structure {
+            let refolded = strips::refold(read, structure, &mut worst);
+            found.extend(refolded.findings);
+            if k == 0 {
+                (proof.nodes, proof.slits) = (refolded.nodes, refolded.slits);
+            }
+        }
+        let (parts, off) = part_figures(read, &found, &mut worst);
+        found.extend(off);
+        if k == 0 {
+            proof.parts = parts;
+        }
+        proof.worst.push(worst);
+        // What stands in all formats is told once, with the first file it was found in.
+        let news = |fact: &ProofFinding| known.insert(key(fact));
+        facts.extend(found.into_iter().filter(news));
+    }
+    proof.findings = facts.into_iter().map(Finding::from).collect();
+    Ok(proof)
+}
+
+/// What makes two findings one, whatever format they were found in.
+fn key(fact: &ProofFinding) -> (String, Vec<String>, Vec<usize>, Option<[i64; 2]>) {
+    let code = fact.code().map(|code| code.to_string()).unwrap_or_default();
+    let place: Place = crate::diagnostic::Located::place(fact);
+    let at = place.at.map(|at| at.map(|mm| mm.round() as i64));
+    let of_the_file = code.ends_with("formats_differ") || code.ends_with("file_missing");
+    let code = if of_the_file { format!("{code} {}", fact.spot().file) } else { code };
+    (code, place.parts, place.nodes, at)
+}
+
+fn is_proved(path: &str) -> bool {
+    let drawing = [".dxf", ".svg", ".pdf"].iter().any(|end| path.ends_with(end));
+    path == "structure.json" || drawing
+}
+
+fn read_manifest(files: &JobFiles) -> Result<Manifest, ProofError> {
+    let file = "job.json";
+    let bytes = files.get(file).ok_or(ProofError::NoFile { file })?;
+    let bad = |message: String| ProofError::BadFile { file, message };
+    let manifest: Manifest =
+        serde_json::from_slice(bytes).map_err(|error| bad(error.to_string()))?;
+    if manifest.format != "finwright-job" || manifest.version != 1 {
+        let found = format!("format {:?}, version {}", manifest.format, manifest.version);
+        return Err(bad(found));
+    }
+    let no_files = !files.keys().any(|path| path.ends_with(".dxf"));
+    if no_files && files.keys().any(|path| path.starts_with("preview/")) {
+        return Err(ProofError::Refused);
+    }
+    Ok(manifest)
+}
+
+/// The structure, if the job has parts that go back into one.
+fn read_structure(
+    files: &JobFiles,
+    manifest: &Manifest,
+) -> Result<Option<Structure>, ProofError> {
+    let file = "structure.json";
+    if manifest.parts.iter().all(|part| part.strip.is_none()) {
+        return Ok(None);
+    }
+    let bytes = files.get(file).ok_or(ProofError::NoFile { file })?;
+    let bad = |message: String| ProofError::BadFile { file, message };
+    let text = std::str::from_utf8(bytes).map_err(|error| bad(error.to_string()))?;
+    let (draft, _) =
+        read_json(text, AxisRule::File).map_err(|error| bad(error.to_string()))?;
+    match Structure::new(draft, &Tolerance::default()) {
+        Ok((structure, _)) => Ok(Some(structure)),
+        Err(refused) => {
+            let first = refused.findings.into_iter().next();
+            Err(bad(first.map(|finding| finding.message).unwrap_or_default()))
+        }
+    }
+}
+
+/// The drawings of all formats; what is missing or unreadable is noted.
+fn formats(
+    manifest: &Manifest,
+    files: &JobFiles,
+    facts: &mut Vec<ProofFinding>,
+) -> Vec<Files> {
+    let mut formats = Vec::new();
+    for format in ["dxf", "svg"] {
+        let sheets = manifest.sheets.iter().map(|sheet| {
+            let named = if format == "dxf" { &sheet.files.dxf } else { &sheet.files.svg };
+            let path = if named.contains('/') {
+                named.clone()
+            } else {
+                format!("sheets/{named}")
+            };
+            let read = |bytes: &Vec<u8>| match format {
+                "dxf" => read::read_dxf(bytes),
+                _ => read::read_svg(bytes),
+            };
+            let drawing = match files.get(&path).map(read) {
+                Some(Ok(drawing)) => Some(drawing),
+                Some(Err(error)) => {
+                    let (spot, reason) = (Spot::file(&path), error.to_string());
+                    facts.push(ProofFinding::Unreadable { spot, reason });
+                    None
+                }
+                None => {
+                    facts.push(ProofFinding::FileMissing { spot: Spot::file(&path) });
+                    None
+                }
+            };
+            (path, drawing)
+        });
+        formats.push(Files { format, sheets: sheets.collect() });
+    }
+    formats.push(Files { format: "pdf", sheets: pages(manifest, files, facts) });
+    formats
+}
+
+fn pages(
+    manifest: &Manifest,
+    files: &JobFiles,
+    facts: &mut Vec<ProofFinding>,
+) -> Vec<(String, Option<read::Drawing>)> {
+    let mut pages = match files.get(PDF).map(|bytes| read::read_pdf(bytes)) {
+        Some(Ok(pages)) => pages,
+        Some(Err(error)) => {
+            let (spot, reason) = (Spot::file(PDF), error.to_string());
+            facts.push(ProofFinding::Unreadable { spot, reason });
+            Vec::new()
+        }
+        None => {
+            facts.push(ProofFinding::FileMissing { spot: Spot::file(PDF) });
+            Vec::new()
+        }
+    }
+    .into_iter();
+    let named = |sheet: &manifest::Sheet| format!("{PDF}, page of {}", sheet.id);
+    manifest.sheets.iter().map(|sheet| (named(sheet), pages.next())).collect()
+}
+
+/// Figures of each part, and where its outline is off and nothing else says so.
+fn part_figures(
+    read: &Read,
+    told: &[ProofFinding],
+    worst: &mut Worst,
+) -> (Vec<PartFigure>, Vec<ProofFinding>) {
+    let mut findings = Vec::new();
+    let figures = read.found.iter().map(|found| {
+        let id = read.id(found);
+        let spots = told.iter().map(ProofFinding::spot);
+        let slits = spots
+            .filter(|spot| spot.node.is_some() && spot.parts.iter().any(|p| p == id));
+        let slits: Vec<_> = slits.filter_map(|spot| spot.at).collect();
+        let (outline_mm, off) = outline::deviations(read, found, &slits);
+        findings.extend(off);
+        let moved_mm = sheets::finite(read.moved(found));
+        worst.outline_mm = worst.outline_mm.max(micro(outline_mm));
+        worst.moved_mm = worst.moved_mm.max(micro(moved_mm));
+        PartFigure {
+            part: id.to_owned(),
+            copy: read.matching.places[found.place].copy,
+            file: read.file(found).to_owned(),
+            moved_mm: micro(moved_mm),
+            kerf_mm: micro(found.kerf),
+            outline_mm: micro(outline_mm),
+        }
+    });
+    (figures.collect(), findings)
+}
