@@ -131,3 +131,16 @@ pub const SPACING_SLACK_MM: f64 = 1e-3;
 
 /// Scales of a whole drawing that differ by less are taken for equal.
 pub const SAME_SCALE: f64 = 2e-3;
+
+/// A fin counts as exactly plane below this share of its diameter.
+pub const PLANAR: f64 = 1e-9;
+
+/// Fins that are plane to this share of their diameter need no planarising: 0.01 %, some
+/// hundredths of a millimetre on the largest sheet.
+pub const PLANAR_ENOUGH: f64 = 1e-4;
+
+/// Damping of normal equations whose rows are in fin lengths: less cannot be told from none.
+pub const LEAST_DAMPING: f64 = 1e-8;
+
+/// Angle by which a boundary turns at a corner of the base mesh, radians.
+pub const CORNER_TURN: f64 = std::f64::consts::FRAC_PI_4;

@@ -5,18 +5,12 @@ use crate::cli::args::InputArgs;
 use crate::cli::input;
 use crate::cli::run::{End, Failure, print};
 use crate::cli::show::{Terminal, Voice};
-use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, Ordering};
 
 /// Looks for the smallest scale and prints what was tried.
 pub(super) fn run(args: &InputArgs, voice: Voice) -> Result<End, Failure> {
     let template = input::template(&args.template)?;
     let draft = input::structure(args)?.draft;
-    let stop = Arc::new(AtomicBool::new(false));
-    let switch = Arc::clone(&stop);
-    // Without a handler Ctrl-C just ends the process, and nothing is written here.
-    let _ = ctrlc::set_handler(move || switch.store(true, Ordering::Relaxed));
-    let mut terminal = Terminal::new(voice, stop, None);
+    let mut terminal = Terminal::new(voice, None);
     let depth = args.depth.map(|depth| [depth.below, depth.above]);
     let question =
         Question { draft: &draft, template: &template, joint: args.joint, depth };

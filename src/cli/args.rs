@@ -1,6 +1,7 @@
 //! What was typed.
 
 use crate::cli::coupon::{self, CouponArgs};
+use crate::cli::planarise::{PLANARISE_HELP, PlanariseArgs, PlanariseWhen};
 use crate::cli::rigidity;
 use crate::cli::verify::{self, VerifyArgs};
 use crate::geometry::{Point3, Vector3};
@@ -42,6 +43,10 @@ pub enum Command {
     /// Say whether a structure is rigid, and what would help if it is not
     #[command(after_help = rigidity::HELP)]
     Rigidity(rigidity::RigidityArgs),
+
+    /// Planar fins from any quad-dominant mesh
+    #[command(after_help = PLANARISE_HELP)]
+    Planarise(Box<PlanariseArgs>),
 
     /// Read the files of a job back, fold the parts and compare with the structure
     #[command(after_help = verify::HELP)]
@@ -138,6 +143,10 @@ pub struct InputArgs {
     /// the file says, else boundary]
     #[arg(long, value_parser = fix)]
     pub fix: Option<Fix>,
+
+    /// Whether fins that are not plane are made so by moving nodes and axes
+    #[arg(long, value_enum, default_value = "auto", value_name = "WHEN")]
+    pub planarise: PlanariseWhen,
 
     /// Seed of the nesting search
     #[arg(long, default_value_t = 0)]
@@ -273,7 +282,7 @@ pub enum Fix {
     Nodes(Vec<usize>),
 }
 
-fn numbers(text: &str) -> Result<Vec<f64>, String> {
+pub(super) fn numbers(text: &str) -> Result<Vec<f64>, String> {
     let number = |word: &str| match word.trim().parse::<f64>() {
         Ok(number) if number.is_finite() => Ok(number),
         _ => Err(format!("{word:?} is no number")),
@@ -299,7 +308,7 @@ fn scale(text: &str) -> Result<Scale, String> {
     }
 }
 
-fn axis_rule(text: &str) -> Result<AxisRule, String> {
+pub(super) fn axis_rule(text: &str) -> Result<AxisRule, String> {
     let triple = |text: &str| match numbers(text)?.as_slice() {
         &[x, y, z] => Ok([x, y, z]),
         other => Err(format!("three numbers X,Y,Z are needed, found {}", other.len())),
@@ -323,7 +332,7 @@ fn axis_rule(text: &str) -> Result<AxisRule, String> {
     }
 }
 
-fn depth(text: &str) -> Result<Depth, String> {
+pub(super) fn depth(text: &str) -> Result<Depth, String> {
     match numbers(text)?.as_slice() {
         &[below, above] if below >= 0.0 && above >= 0.0 && below + above > 0.0 => {
             Ok(Depth { below, above })
@@ -332,7 +341,7 @@ fn depth(text: &str) -> Result<Depth, String> {
     }
 }
 
-fn fix(text: &str) -> Result<Fix, String> {
+pub(super) fn fix(text: &str) -> Result<Fix, String> {
     match text {
         "none" => Ok(Fix::None),
         "boundary" => Ok(Fix::Boundary),

@@ -1,9 +1,11 @@
 //! From what was typed to a draft and a template: the only place that reads files.
 
-use crate::cli::args::{Fix, InputArgs};
+use crate::cli::args::{Depth, Fix, InputArgs};
 use crate::design::examples;
 use crate::diagnostic::{Finding, Located, Place};
-use crate::structure::{Draft, ObjOptions, ReadError, read_json, read_obj};
+use crate::structure::{
+    AxisRule, Draft, ObjOptions, ReadError, boundary_nodes, exchange, read_json, read_obj,
+};
 use crate::template::{self, Template, TemplateErrors};
 use crate::tolerance::SAME_HEIGHT;
 use crate::units::Unit;
@@ -96,6 +98,8 @@ pub(super) struct Input {
     pub file: String,
     /// SHA-256 of what was read.
     pub sha256: String,
+    /// Whether the format says which edges carry fins.
+    pub lists_fins: bool,
     /// Found while reading.
     pub findings: Vec<Finding>,
 }
@@ -111,9 +115,38 @@ pub(super) fn sha256(bytes: &[u8]) -> String {
 /// [`InputError`] if there is none.
 pub(super) fn structure(args: &InputArgs) -> Result<Input, InputError> {
     let named = args.structure.as_deref().unwrap_or(examples::ALL[0].name);
+    let reading = Reading {
+        units: args.units,
+        axes: args.axes,
+        scale: args.scale.factor,
+        depth: args.depth,
+        fix: args.fix.as_ref(),
+    };
+    read(named, &reading)
+}
+
+/// How a structure is read.
+pub(super) struct Reading<'a> {
+    /// Unit of a file that names none.
+    pub units: Option<Unit>,
+    /// Where node axes come from.
+    pub axes: AxisRule,
+    /// Of the model.
+    pub scale: f64,
+    /// Instead of the file's.
+    pub depth: Option<Depth>,
+    /// Instead of the file's.
+    pub fix: Option<&'a Fix>,
+}
+
+/// Reads an embedded structure or a file.
+///
+/// # Errors
+/// [`InputError`] if there is none.
+pub(super) fn read(named: &str, args: &Reading) -> Result<Input, InputError> {
     let path = Path::new(named);
     let mut input = match examples::named(named) {
-        Some(example) if !path.exists() => {
+        Some(example) if !path.is_file() => {
             let mut draft = (example.draft)();
             if let Some(axes) = args.axes.axes(&draft.positions, &draft.faces) {
                 draft.axes = axes;
@@ -121,7 +154,7 @@ pub(super) fn structure(args: &InputArgs) -> Result<Input, InputError> {
             let sha256 = sha256(format!("{draft:?}").as_bytes());
             let file = named.to_owned();
             let findings = units_ignored(args, &file);
-            Input { draft, file, sha256, findings }
+            Input { draft, file, sha256, lists_fins: true, findings }
         }
         // A name without an ending can only have been meant as an embedded one.
         None if !path.exists() && path.extension().is_none() => {
@@ -129,12 +162,13 @@ pub(super) fn structure(args: &InputArgs) -> Result<Input, InputError> {
         }
         _ => from_file(path, args)?,
     };
-    input.draft = input.draft.scaled(args.scale.factor);
+    input.draft = input.draft.scaled(args.scale);
     if let Some(depth) = args.depth {
         input.draft = input.draft.with_depth(depth.below, depth.above);
     }
-    if let Some(fix) = &args.fix {
-        input.draft.fixed = fixed(fix, &input.draft);
+    if let Some(fix) = args.fix {
+        let boundary = *fix == Fix::Boundary;
+        input.draft.fixed = (!boundary).then(|| nodes(fix, &input.draft));
     }
     Ok(input)
 }
@@ -146,12 +180,12 @@ pub(super) fn unknown_structure(found: &str) -> InputError {
     InputError::UnknownStructure { found: found.to_owned(), nearest }
 }
 
-fn units_ignored(args: &InputArgs, file: &str) -> Vec<Finding> {
+fn units_ignored(args: &Reading, file: &str) -> Vec<Finding> {
     let note = args.units.map(|_| InputNote::UnitsIgnored { file: file.to_owned() });
     note.into_iter().map(Finding::from).collect()
 }
 
-fn from_file(path: &Path, args: &InputArgs) -> Result<Input, InputError> {
+fn from_file(path: &Path, args: &Reading) -> Result<Input, InputError> {
     let file = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
     let bad = |source| InputError::BadStructure { path: path.to_owned(), source };
     let ending = path.extension().unwrap_or_default().to_string_lossy().to_lowercase();
@@ -160,13 +194,20 @@ fn from_file(path: &Path, args: &InputArgs) -> Result<Input, InputError> {
         _ => Err(InputError::UnknownFormat { path: path.to_owned() }),
     })?;
     let sha256 = sha256(&bytes);
+    let unit = args.units.unwrap_or(Unit::Millimetre);
     let (mut draft, notes, mut findings) = if ending == "json" {
-        let (draft, notes) = read_json(&text(path, bytes)?, args.axes).map_err(bad)?;
-        (draft, notes, units_ignored(args, &file))
+        let text = text(path, bytes)?;
+        if exchange::is_compas(&text) {
+            let (draft, notes) =
+                exchange::read_compas(&text, unit, args.axes).map_err(bad)?;
+            (draft, notes, Vec::new())
+        } else {
+            let (draft, notes) = read_json(&text, args.axes).map_err(bad)?;
+            (draft, notes, units_ignored(args, &file))
+        }
     } else {
         // Names and comments may be in any alphabet; what counts in an OBJ file is ASCII.
         let text = String::from_utf8_lossy(&bytes);
-        let unit = args.units.unwrap_or(Unit::Millimetre);
         let options = ObjOptions { unit, axes: args.axes };
         let (draft, notes) = read_obj(&text, &options).map_err(bad)?;
         (draft, notes, Vec::new())
@@ -175,7 +216,7 @@ fn from_file(path: &Path, args: &InputArgs) -> Result<Input, InputError> {
         draft.name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
     }
     findings.extend(notes.into_iter().map(Finding::from));
-    Ok(Input { draft, file, sha256, findings })
+    Ok(Input { draft, file, sha256, lists_fins: ending == "json", findings })
 }
 
 /// What is in a file that is there and may be read, without a byte order mark.
@@ -209,23 +250,24 @@ pub(super) fn text_of(path: &Path) -> Result<String, InputError> {
     text(path, bytes(path, |_| Ok(()))?)
 }
 
-/// The nodes to hold; `None` leaves it to the structure: its boundary.
-fn fixed(fix: &Fix, draft: &Draft) -> Option<Vec<usize>> {
+/// The nodes that a choice names.
+pub(super) fn nodes(fix: &Fix, draft: &Draft) -> Vec<usize> {
+    let count = draft.positions.len();
     match fix {
-        Fix::None => Some(Vec::new()),
-        Fix::Boundary => None,
-        Fix::Nodes(nodes) => Some(nodes.clone()),
+        Fix::None => Vec::new(),
+        Fix::Boundary => boundary_nodes(&draft.faces, count)
+            .into_iter()
+            .enumerate()
+            .filter_map(|(node, boundary)| boundary.then_some(node))
+            .collect(),
+        Fix::Nodes(nodes) => nodes.clone(),
         Fix::Lowest => {
             let height = |p: &crate::geometry::Point3| p.z;
             let all = || draft.positions.iter().map(height);
             let low = all().fold(f64::INFINITY, f64::min);
             let high = all().fold(f64::NEG_INFINITY, f64::max);
             let limit = low + SAME_HEIGHT * (high - low);
-            Some(
-                (0..draft.positions.len())
-                    .filter(|&k| draft.positions[k].z <= limit)
-                    .collect(),
-            )
+            (0..count).filter(|&k| draft.positions[k].z <= limit).collect()
         }
     }
 }

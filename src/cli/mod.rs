@@ -5,6 +5,7 @@ mod args;
 mod coupon;
 mod input;
 mod jobdir;
+mod planarise;
 mod rigidity;
 mod run;
 mod show;

@@ -7,6 +7,7 @@ use crate::cli::args::{
 use crate::cli::coupon;
 use crate::cli::input::{self, Input, InputError};
 use crate::cli::jobdir::{self, JobDirError, JobFile};
+use crate::cli::planarise;
 use crate::cli::rigidity;
 use crate::cli::show::{self, Terminal, Voice};
 use crate::cli::verify::{self, VerifyError, prove_before_writing};
@@ -28,8 +29,6 @@ use miette::Diagnostic;
 use std::io::Write;
 use std::path::Path;
 use std::process::ExitCode;
-use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, Ordering};
 
 /// How a command ended; the number is the exit code (contract §1).
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -92,6 +91,7 @@ pub fn run(cli: Cli) -> ExitCode {
         Command::Rigidity(args) => rigidity::rigidity(&args, voice),
         Command::Coupon(args) => coupon::run(&args, voice),
         Command::Verify(args) => verify::run(&args, voice),
+        Command::Planarise(args) => planarise::run(&args, voice),
         Command::Template { action } => templates(action),
         Command::Example { action } => example(action),
         Command::Completions { shell } => {
@@ -159,11 +159,9 @@ fn ordered(
 ) -> Result<Ordered, Failure> {
     let template = input::template(&args.template)?;
     let mut input = input::structure(args)?;
-    let stop = Arc::new(AtomicBool::new(false));
-    let switch = Arc::clone(&stop);
-    // Without a handler Ctrl-C just ends the process, and nothing has been written then.
-    let _ = ctrlc::set_handler(move || switch.store(true, Ordering::Relaxed));
-    let mut terminal = Terminal::new(voice, stop, args.time_limit);
+    let mut terminal = Terminal::new(voice, args.time_limit);
+    let worst = template.gate.planarity_warn_percent / 100.0;
+    planarise::when_needed(&mut input, args, worst, &mut terminal)?;
     let draft = std::mem::take(&mut input.draft);
     let order = Order {
         draft,

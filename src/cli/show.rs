@@ -92,9 +92,13 @@ pub(super) struct Terminal {
 }
 
 impl Terminal {
-    /// Shows progress unless told to be quiet; asks `stop` whether to stop. A search is
+    /// Shows progress unless told to be quiet; Ctrl-C stops it from here on. A search is
     /// content with what it has after `limit` seconds.
-    pub(super) fn new(voice: Voice, stop: Arc<AtomicBool>, limit: Option<f64>) -> Self {
+    pub(super) fn new(voice: Voice, limit: Option<f64>) -> Self {
+        let stop = Arc::new(AtomicBool::new(false));
+        let switch = Arc::clone(&stop);
+        // Without a handler Ctrl-C just ends the process, and nothing has been written then.
+        let _ = ctrlc::set_handler(move || switch.store(true, Ordering::Relaxed));
         let bar = if voice.quiet { ProgressBar::hidden() } else { ProgressBar::new(1) };
         if let Ok(style) = ProgressStyle::with_template("{msg:10} {wide_bar} {pos}/{len}")
         {

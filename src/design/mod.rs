@@ -1,3 +1,4 @@
-//! Designing structures: the embedded examples, each torsion-free by construction.
+//! Designing structures: the embedded examples, and planar fins from any mesh.
 
 pub mod examples;
+pub mod planarise;

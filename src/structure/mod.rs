@@ -9,6 +9,7 @@
 mod check;
 mod crossing;
 mod draft;
+pub mod exchange;
 mod finding;
 mod json;
 mod meeting;
@@ -69,10 +70,7 @@ impl Structure {
         draft: Draft,
         tolerance: &Tolerance,
     ) -> Result<(Self, Vec<Finding>), Refused> {
-        let mut findings = collect(check::numbers(&draft));
-        if passes(&findings) {
-            findings.extend(collect(check::mesh(&draft)));
-        }
+        let mut findings = draft_findings(&draft);
         if !passes(&findings) {
             return Err(Refused { findings });
         }
@@ -177,20 +175,31 @@ impl Structure {
     }
 }
 
+/// Everything that leaves no structure to speak of, as [`Structure::new`] would say it.
+pub fn draft_findings(draft: &Draft) -> Vec<Finding> {
+    let mut findings = collect(check::numbers(draft));
+    if passes(&findings) {
+        findings.extend(collect(check::mesh(draft)));
+    }
+    findings
+}
+
 fn collect(facts: Vec<StructureFinding>) -> Vec<Finding> {
     facts.into_iter().map(Finding::from).collect()
 }
 
-/// Whether each node is an end of an edge with one face only.
-fn boundary_nodes(faces: &[Vec<usize>], nodes: usize) -> Vec<bool> {
+/// Whether each node is an end of an edge with one face only; corners out of range are left
+/// for the check of the draft.
+pub fn boundary_nodes(faces: &[Vec<usize>], nodes: usize) -> Vec<bool> {
     let mut uses: BTreeMap<[usize; 2], usize> = BTreeMap::new();
     for (i, j) in faces.iter().flat_map(|face| face_edges(face)) {
         *uses.entry([i.min(j), i.max(j)]).or_default() += 1;
     }
     let mut boundary = vec![false; nodes];
     for (&[i, j], _) in uses.iter().filter(|&(_, &count)| count == 1) {
-        boundary[i] = true;
-        boundary[j] = true;
+        for node in [i, j].into_iter().filter(|&node| node < nodes) {
+            boundary[node] = true;
+        }
     }
     boundary
 }

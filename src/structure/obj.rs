@@ -77,7 +77,7 @@ pub fn read_obj(
 }
 
 /// Lines without comments, `\` at the end joining the next, numbered from 1.
-fn logical_lines(text: &str) -> impl Iterator<Item = (usize, String)> + '_ {
+pub(super) fn logical_lines(text: &str) -> impl Iterator<Item = (usize, String)> + '_ {
     let mut lines = text.lines().enumerate();
     std::iter::from_fn(move || {
         let (index, first) = lines.next()?;
@@ -132,7 +132,7 @@ impl Mesh {
     }
 }
 
-fn vector<'a>(
+pub(super) fn vector<'a>(
     line: usize,
     mut words: impl Iterator<Item = &'a str>,
 ) -> Result<Vector3, ReadError> {
@@ -236,7 +236,7 @@ fn normals(positions: &[Point3], faces: &[Vec<usize>]) -> Vec<Vector3> {
     normals.into_iter().zip(in_a_face).map(loose).collect()
 }
 
-fn median_fin_length(draft: &Draft) -> f64 {
+pub(super) fn median_fin_length(draft: &Draft) -> f64 {
     let mut lengths: Vec<f64> = draft
         .fin_pairs()
         .iter()

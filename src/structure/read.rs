@@ -5,7 +5,7 @@ use miette::Diagnostic;
 use thiserror::Error;
 
 /// Why a file is no structure at all.
-#[derive(Debug, Clone, PartialEq, Eq, Error, Diagnostic)]
+#[derive(Debug, Clone, PartialEq, Error, Diagnostic)]
 #[allow(missing_docs, reason = "the messages say it")]
 pub enum ReadError {
     #[error("the file is empty")]
@@ -71,6 +71,44 @@ pub enum ReadError {
     #[error("the depth lists {count} numbers for {nodes} nodes")]
     #[diagnostic(code(read::depth_count), help("give one number, or one per node"))]
     DepthCount { count: usize, nodes: usize },
+
+    #[error(
+        "the second mesh has {other_nodes} vertices or other faces; the first has {nodes}"
+    )]
+    #[diagnostic(
+        code(read::other_mesh),
+        help(
+            "both meshes must have the same faces in the same order; export them together"
+        )
+    )]
+    OtherMesh { nodes: usize, other_nodes: usize },
+
+    #[error("{lines} lines are given for {nodes} nodes")]
+    #[diagnostic(
+        code(read::axis_line_count),
+        help(
+            "one line segment per vertex is needed, in the order of the mesh's vertices"
+        )
+    )]
+    AxisLineCount { lines: usize, nodes: usize },
+
+    #[error("the axis line of vertex {} of the file starts {off_mm:.3} mm away from it", node + 1)]
+    #[diagnostic(
+        code(read::axis_line_elsewhere),
+        help(
+            "each segment must start at its vertex, in the order of the mesh's vertices"
+        )
+    )]
+    AxisLineElsewhere { node: usize, off_mm: f64 },
+
+    #[error("the COMPAS mesh lacks {what}")]
+    #[diagnostic(
+        code(read::bad_compas),
+        help(
+            "write it with `Mesh.to_json`; every vertex needs x, y, z and, if any, an `axis`"
+        )
+    )]
+    BadCompas { what: String },
 }
 
 impl Located for ReadError {

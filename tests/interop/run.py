@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import json
 import subprocess
 import sys
 import tempfile
@@ -11,6 +12,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from check_job import check_same
+from planar import SAME, planarities
 
 HERE = Path(__file__).resolve().parent
 ACCEPT = ["--accept-flexible", "interop test"]
@@ -32,6 +34,17 @@ MESHES: dict[str, list[str]] = {
 
 # Cases that must be refused even with a reason for being flexible: the check is then that no cut file exists.
 REFUSALS: set[str] = {"mesh conical1", "mesh YasIsland"}
+
+# The same meshes with fins made planar from their normals, at a scale and on a sheet on which they pass.
+PLANARISED: dict[str, list[str]] = {
+    "quad_dome.obj": ["--units", "m", "--scale", "1:20"],
+    "conical1.obj": ["--units", "m", "--scale", "1:15"],
+    "botanic-garden-bubble-0.obj": ["--units", "m", "--scale", "1:12", "-t", "petg-1"],
+    "6-sub-lifted.obj": ["--units", "m", "--scale", "1:10", "-t", "petg-1"],
+    "YasIsland.obj": ["--units", "m", "--scale", "1:10", "-t", "petg-1"],
+    "inspired_mesh.obj": ["--units", "m", "--scale", "1:10", "-t", "petg-1"],
+}
+PLANAR_ENOUGH = 1e-4
 
 
 @dataclass
@@ -92,6 +105,19 @@ class Runner:
         print(checked.stdout + checked.stderr, end="")
         self.note("coupon", made.returncode == 0 and checked.returncode == 0, made.stderr.strip()[-300:])
 
+    def planarise(self, mesh: Path) -> None:
+        """Planarises a mesh and measures the written fins again: planar, and as planar as the command says."""
+        for fins in ([], ["--boundary-fins"]):
+            name = f"planarise {mesh.stem}{' all fins' if fins else ''}"
+            out = self.scratch / f"{mesh.stem}-planar.json"
+            ran = self.finwright("planarise", str(mesh), "--units", "m", *fins, "-o", str(out), "-q", "--json")
+            if ran.returncode != 0:
+                self.note(name, False, f"ended with {ran.returncode}: {ran.stderr.strip()[-300:]}")
+                continue
+            said = json.loads(ran.stdout)["figures"]["after"]["worst_percent"] / 100
+            worst = float(planarities(out).max())
+            self.note(name, worst <= PLANAR_ENOUGH and abs(worst - said) <= SAME, f"worst fin {100 * worst:.2e} %, said {100 * said:.2e} %")
+
     def compare(self, case: Case, folder: str) -> None:
         made = self.make(case, f"{folder}-again")
         if made.returncode != 0:
@@ -116,6 +142,8 @@ def cases(runner: Runner, meshes: Path | None) -> list[Case]:
     found += [Case(f"fixture {Path(words[0]).stem}", words[:1], words[1:]) for words in fixture_commands()]
     for name, arguments in MESHES.items() if meshes else ():
         found.append(Case(f"mesh {Path(name).stem}", [str((meshes / name).resolve())], arguments))
+    for name, arguments in PLANARISED.items() if meshes else ():
+        found.append(Case(f"planarised {Path(name).stem}", [str((meshes / name).resolve())], arguments))
     return found
 
 
@@ -139,6 +167,9 @@ def main() -> int:
         runner = Runner(options.binary.resolve(), Path(scratch), extra)
         if options.only in "coupon":
             runner.coupon()
+        for name in PLANARISED if options.meshes else ():
+            if options.only in f"planarise {name}":
+                runner.planarise((options.meshes / name).resolve())
         for case in cases(runner, options.meshes):
             if options.only in case.name:
                 runner.run(case, again=case.name == "default")

@@ -9,6 +9,7 @@ mod gate;
 mod golden;
 mod laws;
 mod peers;
+mod planarise;
 mod plane;
 mod proof;
 mod refusals;

@@ -137,7 +137,10 @@ fn renumbered(draft: Draft) -> Draft {
     }
     renumbered.below = spread(&draft.below);
     renumbered.above = spread(&draft.above);
-    for node in renumbered.faces.iter_mut().flatten() {
+    let fins = renumbered.fins.iter_mut().flatten().flatten();
+    let strips = renumbered.strips.iter_mut().flatten().flatten();
+    let named = fins.chain(strips).chain(renumbered.fixed.iter_mut().flatten());
+    for node in named.chain(renumbered.faces.iter_mut().flatten()) {
         *node = to[*node];
     }
     renumbered

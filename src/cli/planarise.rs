@@ -1,0 +1,225 @@
+//! `finwright planarise`, and planarising on the way to other commands.
+
+mod args;
+
+use crate::cli::args::InputArgs;
+use crate::cli::input::{self, Input, InputError, Reading};
+use crate::cli::jobdir::JobDirError;
+use crate::cli::run::{End, Failure, print};
+use crate::cli::show::{Terminal, Voice};
+use crate::design::planarise::{
+    Options, PictureError, Planarised, Step, Stopped, picture, planarise,
+    planarised_if_needed, smoothed_axes,
+};
+use crate::diagnostic::{Finding, passes};
+use crate::job::Interrupted;
+use crate::structure::{Structure, exchange, write_json, write_obj};
+use crate::tolerance::Tolerance;
+use crate::units::Unit;
+use crate::watch::Watch;
+pub(super) use args::PLANARISE_HELP;
+use args::options;
+pub(super) use args::{PlanariseArgs, PlanariseWhen};
+use std::path::Path;
+
+/// Runs the command.
+pub(super) fn run(args: &PlanariseArgs, voice: Voice) -> Result<End, Failure> {
+    let mut input = read(args)?;
+    let options = options(args, &input);
+    let given = input.draft.clone();
+    let mut findings = std::mem::take(&mut input.findings);
+    let mut terminal = Terminal::new(voice, None);
+    let result = planarise(input.draft, &options, &mut terminal);
+    terminal.finish();
+    let result = match result {
+        Ok(result) => result,
+        Err(Stopped::Interrupted) => return Err(Failure::Interrupted),
+        Err(Stopped::Refused(more)) => {
+            findings.extend(more);
+            voice.findings(&findings);
+            if args.json {
+                print(&format!("{}\n", serde_json::json!({"findings": findings})));
+            }
+            return Ok(End::Refused);
+        }
+    };
+    findings.retain(|finding| finding.code != AXES_FROM_NORMALS);
+    findings.extend(result.findings.iter().cloned());
+    let structure = match Structure::new(result.draft.clone(), &Tolerance::default()) {
+        Ok((structure, _)) => Some(structure),
+        Err(refused) => {
+            findings.extend(refused.findings);
+            None
+        }
+    };
+    voice.findings(&findings);
+    let Some(structure) = structure else { return Ok(End::Refused) };
+    write(args, &given, &result, &structure)?;
+    if args.json {
+        print(&format!("{}\n", report(&result, &findings)));
+    }
+    voice.say(&summary(&result));
+    Ok(if passes(&findings) { End::Done } else { End::Refused })
+}
+
+const AXES_FROM_NORMALS: &str = "structure::axes_from_normals";
+
+fn read(args: &PlanariseArgs) -> Result<Input, Failure> {
+    let reading = Reading {
+        units: args.units,
+        axes: args.axes,
+        scale: 1.0,
+        depth: None,
+        fix: args.fix.as_ref(),
+    };
+    let mut input = input::read(&args.mesh, &reading)?;
+    let bad =
+        |path: &Path, source| InputError::BadStructure { path: path.to_owned(), source };
+    let draft = &mut input.draft;
+    if let Some(path) = &args.upper {
+        let upper = input::read(&path.to_string_lossy(), &reading)?.draft;
+        *draft =
+            exchange::between(std::mem::take(draft), &upper).map_err(|e| bad(path, e))?;
+    } else if let Some(path) = &args.axis_mesh {
+        let other = input::read(&path.to_string_lossy(), &reading)?.draft;
+        draft.axes = exchange::axes_toward(draft, &other).map_err(|e| bad(path, e))?;
+    } else if let Some(path) = &args.axis_lines {
+        let text = input::text_of(path)?;
+        let axes = exchange::axes_from_lines(
+            draft,
+            &text,
+            args.units.unwrap_or(Unit::Millimetre),
+        );
+        draft.axes = axes.map_err(|e| bad(path, e))?;
+    }
+    if let Some(depth) = args.depth {
+        *draft = std::mem::take(draft).with_depth(depth.below, depth.above);
+    }
+    if args.smooth > 0 {
+        draft.axes = smoothed_axes(draft, args.smooth);
+    }
+    Ok(input)
+}
+
+fn write(
+    args: &PlanariseArgs,
+    given: &crate::structure::Draft,
+    result: &Planarised,
+    structure: &Structure,
+) -> Result<(), Failure> {
+    let text = write_json(structure);
+    match &args.output {
+        Some(path) => to_disk(path, text.as_bytes())?,
+        None if !args.json => {
+            print(&text);
+        }
+        None => {}
+    }
+    if let Some(path) = &args.picture {
+        let fins = result.draft.fins.clone();
+        let before = crate::structure::Draft { fins, ..given.clone() };
+        match picture(&before, &result.draft) {
+            Ok(bytes) => to_disk(path, &bytes)?,
+            Err(PictureError) => {
+                return Err(InputError::UnknownFormat { path: path.clone() }.into());
+            }
+        }
+    }
+    if let Some(dir) = &args.export {
+        let disk = |source| JobDirError::Disk { path: dir.clone(), source };
+        std::fs::create_dir_all(dir).map_err(disk)?;
+        for (ending, text) in exchange_files(structure) {
+            to_disk(&dir.join(format!("{}{ending}", structure.name())), text.as_bytes())?;
+        }
+    }
+    Ok(())
+}
+
+fn exchange_files(structure: &Structure) -> Vec<(&'static str, String)> {
+    let [lower, upper] = exchange::write_pair(structure);
+    let [mesh, lines] = exchange::write_lines(structure);
+    vec![
+        ("-lower.obj", lower),
+        ("-upper.obj", upper),
+        ("-vn.obj", write_obj(structure)),
+        ("-mesh.obj", mesh),
+        ("-axes.obj", lines),
+        ("-compas.json", exchange::write_compas(structure)),
+        ("-fins.obj", exchange::write_fins(structure)),
+    ]
+}
+
+fn to_disk(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
+    let disk = |source| JobDirError::Disk { path: path.to_owned(), source };
+    Ok(std::fs::write(path, bytes).map_err(disk)?)
+}
+
+fn report(result: &Planarised, findings: &[Finding]) -> serde_json::Value {
+    let step = |step: &Step| {
+        serde_json::json!({
+            "polish": step.polish,
+            "planarity_weight": step.weight,
+            "energy": step.energy,
+            "worst_percent": step.worst * 100.0,
+            "damping": step.damping,
+            "taken": step.taken,
+        })
+    };
+    serde_json::json!({
+        "figures": result.figures,
+        "history": result.history.iter().map(step).collect::<Vec<_>>(),
+        "findings": findings,
+    })
+}
+
+fn summary(result: &Planarised) -> String {
+    let figures = &result.figures;
+    if result.history.is_empty() {
+        return format!(
+            "{} fins are plane as they are: worst {:.6} %",
+            figures.fins,
+            figures.before.worst * 100.0
+        );
+    }
+    format!(
+        "{} fins: worst {:.3} % before, {:.6} % after {} steps; nodes moved up to {:.3} mm, \
+         axes turned up to {:.1}°, {:.3} mm from the given surface",
+        figures.fins,
+        figures.before.worst * 100.0,
+        figures.after.worst * 100.0,
+        result.history.len(),
+        figures.moves[1],
+        figures.largest_turn.to_degrees(),
+        figures.distance
+    )
+}
+
+/// Makes the fins of an input plane if they are not, and says so.
+///
+/// # Errors
+/// [`Interrupted`] if the watch stopped the work.
+pub(super) fn when_needed(
+    input: &mut Input,
+    args: &InputArgs,
+    worst: f64,
+    watch: &mut dyn Watch,
+) -> Result<(), Interrupted> {
+    if args.planarise == PlanariseWhen::Never {
+        return Ok(());
+    }
+    // A structure in our own format says what its fins are; a mesh does not.
+    let boundary_fins = input.lists_fins;
+    let options = Options { target: worst, boundary_fins, ..Options::default() };
+    let draft = std::mem::take(&mut input.draft);
+    match planarised_if_needed(draft, &options, watch) {
+        Ok((draft, findings)) => {
+            if findings.iter().any(|finding| finding.code == "design::planarised") {
+                input.findings.retain(|finding| finding.code != AXES_FROM_NORMALS);
+            }
+            input.draft = draft;
+            input.findings.extend(findings);
+            Ok(())
+        }
+        Err(_) => Err(Interrupted),
+    }
+}

@@ -1,0 +1,59 @@
+//! Planarising on the way to something else: only when fins are not plane.
+
+use crate::design::planarise::finding::DesignFinding;
+use crate::design::planarise::options::Options;
+use crate::design::planarise::{Stopped, planarise};
+use crate::diagnostic::{Finding, passes};
+use crate::structure::{Draft, draft_findings, planarity};
+use crate::watch::Watch;
+
+/// The draft as it is if its fins are plane to [`Options::target`] or if it is no structure
+/// at all (which others say); else planarised, with what has to be said about it.
+///
+/// # Errors
+/// [`Stopped::Interrupted`] if the watch stopped the work, never the other.
+pub fn planarised_if_needed(
+    draft: Draft,
+    options: &Options,
+    watch: &mut dyn Watch,
+) -> Result<(Draft, Vec<Finding>), Stopped> {
+    if !passes(&draft_findings(&draft)) || worst(&draft) <= options.target {
+        return Ok((draft, Vec::new()));
+    }
+    let all = draft.fin_pairs().len();
+    let planarised = match planarise(draft.clone(), options, watch) {
+        Ok(planarised) => planarised,
+        Err(Stopped::Refused(findings)) => return Ok((draft, findings)),
+        Err(Stopped::Interrupted) => return Err(Stopped::Interrupted),
+    };
+    let figures = planarised.figures;
+    let mut facts = Vec::new();
+    if !planarised.history.is_empty() {
+        facts.push(DesignFinding::Planarised {
+            fins: figures.fins,
+            before_percent: figures.before.worst * 100.0,
+            after_percent: figures.after.worst * 100.0,
+            move_mm: figures.moves[1],
+            turn_deg: figures.largest_turn.to_degrees(),
+        });
+    }
+    if figures.fins < all {
+        facts.push(DesignFinding::BoundaryLeft { count: all - figures.fins });
+    }
+    let findings = facts.into_iter().map(Finding::from).chain(planarised.findings);
+    Ok((planarised.draft, findings.collect()))
+}
+
+/// Worst planarity of a checked draft's fins, as a share of a fin's diameter.
+fn worst(draft: &Draft) -> f64 {
+    let end =
+        |k: usize, reach: f64| draft.positions[k] + draft.axes[k].normalize() * reach;
+    let planarity = |[i, j]: [usize; 2]| {
+        let (below, above) = (&draft.below, &draft.above);
+        let corners =
+            [end(i, -below[i]), end(j, -below[j]), end(j, above[j]), end(i, above[i])];
+        let (off, diameter) = planarity(&corners);
+        off / diameter
+    };
+    draft.fin_pairs().into_iter().map(planarity).fold(0.0, f64::max)
+}

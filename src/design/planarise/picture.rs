@@ -1,0 +1,198 @@
+//! A picture of planarity before and after, as in Figure 2c: fins in colours from blue
+//! (plane) to red (out of plane), seen from above at a slant.
+
+use crate::geometry::{Point2, Point3, Vector3};
+use crate::lettering::letter;
+use crate::structure::{Draft, planarity};
+use crate::tolerance::PLANAR;
+use miette::Diagnostic;
+use thiserror::Error;
+use tiny_skia::{Color, FillRule, Paint, Path, PathBuilder, Pixmap, Stroke, Transform};
+
+/// Width and height of one of the two panels, pixels.
+const PANEL: [f64; 2] = [1100.0, 900.0];
+/// Room below for the scale of colours, pixels.
+const FOOT: f64 = 110.0;
+const MARGIN: f64 = 60.0;
+/// The scale of colours runs between these shares of a fin's diameter, in powers of ten.
+const LOW_POWER: f64 = -7.0;
+const HIGH_POWER: f64 = -2.0;
+
+/// Why there is no picture.
+#[derive(Debug, Clone, PartialEq, Eq, Error, Diagnostic)]
+#[error("the picture of planarity could not be made")]
+#[diagnostic(code(design::picture), help("leave `--picture` out"))]
+pub struct PictureError;
+
+/// Draws the fins of two drafts of the same mesh side by side, as PNG. Both drafts must
+/// have passed [`draft_findings`](crate::structure::draft_findings).
+///
+/// # Errors
+/// [`PictureError`] if there is nothing to draw.
+pub fn picture(before: &Draft, after: &Draft) -> Result<Vec<u8>, PictureError> {
+    let view = View::onto(before);
+    let size = [2.0 * PANEL[0], PANEL[1] + FOOT];
+    let mut pixels = Pixmap::new(size[0] as u32, size[1] as u32).ok_or(PictureError)?;
+    pixels.fill(Color::WHITE);
+    for (panel, (title, draft)) in
+        [("before", before), ("after", after)].iter().enumerate()
+    {
+        let left = panel as f64 * PANEL[0];
+        let worst = view.fins(draft, left, &mut pixels);
+        let text = format!("{title}: worst fin {:.5} %", worst * 100.0);
+        write(&mut pixels, &text, [left + MARGIN, 20.0], 22.0);
+    }
+    legend(&mut pixels);
+    pixels.encode_png().map_err(|_| PictureError)
+}
+
+/// Where one looks from.
+struct View {
+    right: Vector3,
+    up: Vector3,
+    toward: Vector3,
+    centre: Vector3,
+    scale: f64,
+}
+
+impl View {
+    /// Slanted onto the mesh, so that it fills a panel.
+    fn onto(draft: &Draft) -> Self {
+        let sum: Vector3 = draft.axes.iter().map(|axis| axis.normalize()).sum();
+        let above = if sum.norm() > 0.1 * draft.axes.len() as f64 {
+            sum.normalize()
+        } else {
+            Vector3::z()
+        };
+        let aside = if above.y.abs() < 0.9 { Vector3::y() } else { Vector3::z() };
+        let right = aside.cross(&above).normalize();
+        // 50 degrees off the mean axis: fins show their faces, cells stay open.
+        let toward = (above * 0.64 - above.cross(&right) * 0.77).normalize();
+        let up = toward.cross(&right);
+        let mut view = Self { right, up, toward, centre: Vector3::zeros(), scale: 1.0 };
+        let places: Vec<Point2> = draft.positions.iter().map(|p| view.at(p)).collect();
+        let low = places.iter().fold(places[0], |low, p| low.inf(p));
+        let high = places.iter().fold(places[0], |high, p| high.sup(p));
+        let span = high - low;
+        view.scale = ((PANEL[0] - 2.0 * MARGIN) / span.x.abs())
+            .min((PANEL[1] - 3.0 * MARGIN) / span.y.abs())
+            .min(f64::MAX);
+        let middle = nalgebra::center(&low, &high);
+        view.centre = right * middle.x + up * middle.y;
+        view
+    }
+
+    fn at(&self, p: &Point3) -> Point2 {
+        let p = p.coords - self.centre;
+        Point2::new(p.dot(&self.right), p.dot(&self.up)) * self.scale
+    }
+
+    /// Draws all fins, the farthest first; returns the worst planarity.
+    fn fins(&self, draft: &Draft, left: f64, pixels: &mut Pixmap) -> f64 {
+        let quad = |&[i, j]: &[usize; 2]| {
+            let end = |k: usize, reach: f64| {
+                draft.positions[k] + draft.axes[k].normalize() * reach
+            };
+            let (below, above) = (&draft.below, &draft.above);
+            [end(i, -below[i]), end(j, -below[j]), end(j, above[j]), end(i, above[i])]
+        };
+        let mut quads: Vec<[Point3; 4]> = draft.fin_pairs().iter().map(quad).collect();
+        let near = |quad: &[Point3; 4]| -> f64 {
+            quad.iter().map(|p| p.coords.dot(&self.toward)).sum()
+        };
+        quads.sort_by(|a, b| near(a).total_cmp(&near(b)));
+        let mut worst = 0.0_f64;
+        for quad in &quads {
+            let (off, diameter) = planarity(quad);
+            let share = if diameter > 0.0 { off / diameter } else { 0.0 };
+            worst = worst.max(share);
+            let place = |p: &Point3| {
+                let p = self.at(p);
+                [left + PANEL[0] / 2.0 + p.x, PANEL[1] / 2.0 + MARGIN / 2.0 - p.y]
+            };
+            if let Some(path) = polygon(&quad.each_ref().map(place)) {
+                paint(pixels, &path, colour(share));
+            }
+        }
+        worst
+    }
+}
+
+fn polygon(corners: &[[f64; 2]]) -> Option<Path> {
+    let mut builder = PathBuilder::new();
+    for (k, [x, y]) in corners.iter().enumerate() {
+        let (x, y) = (*x as f32, *y as f32);
+        if k == 0 { builder.move_to(x, y) } else { builder.line_to(x, y) }
+    }
+    builder.close();
+    builder.finish()
+}
+
+fn paint(pixels: &mut Pixmap, path: &Path, [r, g, b]: [u8; 3]) {
+    let mut ink = Paint { anti_alias: true, ..Paint::default() };
+    ink.set_color_rgba8(r, g, b, 255);
+    pixels.fill_path(path, &ink, FillRule::Winding, Transform::identity(), None);
+    ink.set_color_rgba8(40, 40, 40, 255);
+    let pen = Stroke { width: 0.6, ..Stroke::default() };
+    pixels.stroke_path(path, &ink, &pen, Transform::identity(), None);
+}
+
+/// Blue over pale yellow to red (after ColorBrewer's RdYlBu, for the colour-blind too).
+fn colour(share: f64) -> [u8; 3] {
+    const STOPS: [[f64; 3]; 5] = [
+        [44.0, 123.0, 182.0],
+        [171.0, 217.0, 233.0],
+        [255.0, 255.0, 191.0],
+        [253.0, 174.0, 97.0],
+        [215.0, 25.0, 28.0],
+    ];
+    let power = libm::log10(share.max(PLANAR)).clamp(LOW_POWER, HIGH_POWER);
+    let place = (power - LOW_POWER) / (HIGH_POWER - LOW_POWER) * (STOPS.len() - 1) as f64;
+    let stop = (place as usize).min(STOPS.len() - 2);
+    let share = place - stop as f64;
+    std::array::from_fn(|k| {
+        (STOPS[stop][k] * (1.0 - share) + STOPS[stop + 1][k] * share).round() as u8
+    })
+}
+
+/// The scale of colours, with the percentages at its powers of ten.
+fn legend(pixels: &mut Pixmap) {
+    let (left, width, top) = (PANEL[0] - 500.0, 1000.0, PANEL[1] + 20.0);
+    let steps = 100;
+    for step in 0..steps {
+        let at = |k: usize| left + width * k as f64 / f64::from(steps as u8);
+        let (a, b) = (at(step), at(step + 1));
+        let power = (step as f64 + 0.5) / f64::from(steps as u8);
+        let share = libm::pow(10.0, LOW_POWER + power * (HIGH_POWER - LOW_POWER));
+        let corners = [[a, top], [b, top], [b, top + 24.0], [a, top + 24.0]];
+        if let Some(path) = polygon(&corners) {
+            let mut ink = Paint::default();
+            let [r, g, b] = colour(share);
+            ink.set_color_rgba8(r, g, b, 255);
+            let rule = FillRule::Winding;
+            pixels.fill_path(&path, &ink, rule, Transform::identity(), None);
+        }
+    }
+    let labels = ["0.00001 %", "0.0001 %", "0.001 %", "0.01 %", "0.1 %", "1 %"];
+    for (k, label) in labels.iter().enumerate() {
+        let x = left + width * k as f64 / (labels.len() - 1) as f64;
+        write(pixels, label, [x - 40.0, top + 38.0], 16.0);
+    }
+}
+
+/// Writes a line with its upper left corner here, this many pixels high.
+fn write(pixels: &mut Pixmap, text: &str, [x, y]: [f64; 2], height: f64) {
+    let Ok(lettering) = letter(text, height) else { return };
+    let mut builder = PathBuilder::new();
+    for stroke in &lettering.strokes {
+        for (k, p) in stroke.iter().enumerate() {
+            let (x, y) = ((x + p.x) as f32, (y + height - p.y) as f32);
+            if k == 0 { builder.move_to(x, y) } else { builder.line_to(x, y) }
+        }
+    }
+    let Some(path) = builder.finish() else { return };
+    let mut ink = Paint { anti_alias: true, ..Paint::default() };
+    ink.set_color_rgba8(30, 30, 30, 255);
+    let pen = Stroke { width: (height / 11.0) as f32, ..Stroke::default() };
+    pixels.stroke_path(&path, &ink, &pen, Transform::identity(), None);
+}

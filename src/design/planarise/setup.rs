@@ -1,0 +1,174 @@
+//! From a mesh and options to the energy that is minimised.
+
+use crate::design::planarise::energy::{Energy, Even, Fin, State, coupled};
+use crate::design::planarise::matrix::elimination_order;
+use crate::design::planarise::mesh::Mesh;
+use crate::design::planarise::options::Options;
+use crate::design::planarise::surface::{Surface, unit};
+use crate::geometry::{Point3, Vector3, trig};
+use crate::structure::Draft;
+use crate::tolerance::CORNER_TURN;
+
+/// The energy with how it is numbered and scaled.
+pub(super) struct Task {
+    pub energy: Energy,
+    /// Median fin length: the unit of length inside.
+    pub unit: f64,
+    /// The node of the mesh that comes as the `k`-th.
+    order: Vec<usize>,
+}
+
+impl Task {
+    /// What was found, numbered and scaled as the mesh is.
+    pub(super) fn placed(&self, given: &State, found: &State) -> State {
+        let mut placed = given.clone();
+        for (k, &node) in self.order.iter().enumerate() {
+            let moved = found.positions[k] - self.energy.start.positions[k];
+            placed.positions[node] += moved * self.unit;
+            if self.energy.free[k][1] {
+                placed.axes[node] = unit(found.axes[k]);
+            }
+        }
+        placed
+    }
+
+    /// Numbered and scaled as inside.
+    pub(super) fn inside(&self, given: &State, state: &State) -> State {
+        let mut inside = self.energy.start.clone();
+        for (k, &node) in self.order.iter().enumerate() {
+            let moved = state.positions[node] - given.positions[node];
+            inside.positions[k] += moved / self.unit;
+            inside.axes[k] = state.axes[node];
+        }
+        inside
+    }
+
+    /// The place of each node of the mesh.
+    pub(super) fn place(&self) -> Vec<usize> {
+        let mut place = vec![0; self.order.len()];
+        self.order.iter().enumerate().for_each(|(k, &node)| place[node] = k);
+        place
+    }
+}
+
+/// The fins to be planarised: those listed, or the edges of the faces.
+pub(super) fn fins(draft: &Draft, mesh: &Mesh, boundary_fins: bool) -> Vec<[usize; 2]> {
+    match draft.fins {
+        Some(_) => draft.fin_pairs(),
+        None => {
+            let wanted = mesh.edges.iter().zip(&mesh.on_rim);
+            let wanted = wanted.filter(|&(_, &on_rim)| boundary_fins || !on_rim);
+            wanted.map(|(&edge, _)| edge).collect()
+        }
+    }
+}
+
+/// Axes smoothed over their neighbours: each round brings every axis half way to the mean
+/// of those around it.
+pub fn smoothed_axes(draft: &Draft, rounds: usize) -> Vec<Vector3> {
+    let mut around = vec![Vec::new(); draft.positions.len()];
+    for [i, j] in (Draft { fins: None, ..draft.clone() }).fin_pairs() {
+        if i.max(j) < around.len() {
+            around[i].push(j);
+            around[j].push(i);
+        }
+    }
+    let mut axes: Vec<Vector3> = draft.axes.iter().map(|&axis| unit(axis)).collect();
+    for _ in 0..rounds {
+        let smoothed = axes.iter().zip(&around).map(|(axis, around)| {
+            let sum: Vector3 = around.iter().map(|&k| axes[k]).sum();
+            if around.is_empty() { *axis } else { unit(axis + unit(sum)) }
+        });
+        axes = smoothed.collect();
+    }
+    axes
+}
+
+/// Sets the energy up.
+pub(super) fn task(
+    draft: &Draft,
+    mesh: &Mesh,
+    options: &Options,
+    fins: &[[usize; 2]],
+) -> Task {
+    let nodes = draft.positions.len();
+    let unit_length = median_length(draft, fins);
+    let middle: Vector3 = draft.positions.iter().map(|p| p.coords / nodes as f64).sum();
+    let inside = |p: &Point3| Point3::from((p.coords - middle) / unit_length);
+    let positions: Vec<Point3> = draft.positions.iter().map(inside).collect();
+    let axes: Vec<Vector3> = draft.axes.iter().map(|axis| axis.normalize()).collect();
+    let corners = corners(mesh, &positions);
+    let evens = evens(mesh);
+    let reach =
+        |node: usize| [draft.below[node] / unit_length, draft.above[node] / unit_length];
+    let fins: Vec<Fin> =
+        fins.iter().map(|&ends| Fin { ends, reach: ends.map(reach) }).collect();
+    let order = elimination_order(nodes, &coupled(&fins, &evens));
+    let surface = Surface::new(mesh, &positions, &corners);
+    let upright = (0..nodes).map(|node| upright(&surface, node, axes[node], options));
+    let far = far(&positions, &fins, mesh, options);
+    let mut free: Vec<[bool; 2]> = corners.iter().map(|corner| [!corner, true]).collect();
+    options.fixed_nodes.iter().filter(|&&k| k < nodes).for_each(|&k| free[k][0] = false);
+    options.fixed_axes.iter().filter(|&&k| k < nodes).for_each(|&k| free[k][1] = false);
+    let energy = Energy {
+        upright: upright.collect(),
+        start: State { positions, axes },
+        fins,
+        evens,
+        surface,
+        weights: options.weights,
+        reach: far,
+        free,
+    };
+    Task { energy: energy.renumbered(&order), unit: unit_length, order }
+}
+
+fn median_length(draft: &Draft, fins: &[[usize; 2]]) -> f64 {
+    let length = |&[i, j]: &[usize; 2]| (draft.positions[i] - draft.positions[j]).norm();
+    let mut lengths: Vec<f64> = fins.iter().map(length).collect();
+    lengths.sort_by(f64::total_cmp);
+    lengths[lengths.len() / 2]
+}
+
+/// The normal on the axis' side and the least cosine between the two. An axis that starts
+/// beyond the limit was meant to and may stay.
+fn upright(
+    surface: &Surface,
+    node: usize,
+    axis: Vector3,
+    options: &Options,
+) -> (Vector3, f64) {
+    let normal = surface.normal(node);
+    let normal = if normal.dot(&axis) < 0.0 { -normal } else { normal };
+    (normal, trig::cos(options.tilt_limit).min(normal.dot(&axis)))
+}
+
+/// How far each node may move: a share of its shortest edge.
+fn far(positions: &[Point3], fins: &[Fin], mesh: &Mesh, options: &Options) -> Vec<f64> {
+    let mut shortest = vec![1.0_f64; positions.len()];
+    for &[i, j] in fins.iter().map(|fin| &fin.ends).chain(&mesh.edges) {
+        let length = (positions[i] - positions[j]).norm();
+        shortest[i] = shortest[i].min(length);
+        shortest[j] = shortest[j].min(length);
+    }
+    shortest.into_iter().map(|length| length * options.move_limit).collect()
+}
+
+/// Boundary nodes where the boundary turns: they stay.
+fn corners(mesh: &Mesh, positions: &[Point3]) -> Vec<bool> {
+    let turns = |node: usize| {
+        let Some([a, b]) = mesh.rim(node) else { return false };
+        let (to, from) = (positions[a] - positions[node], positions[node] - positions[b]);
+        trig::atan2(to.cross(&from).norm(), to.dot(&from)) > CORNER_TURN
+    };
+    (0..positions.len()).map(turns).collect()
+}
+
+/// Every node stays, and neighbours change alike: along every edge, whether it carries a
+/// fin or not.
+fn evens(mesh: &Mesh) -> Vec<Even> {
+    let alike =
+        |&[i, j]: &[usize; 2]| Even { stencil: vec![(i, 1.0), (j, -1.0)], stays: false };
+    let stays = |node| Even { stencil: vec![(node, 1.0)], stays: true };
+    mesh.edges.iter().map(alike).chain((0..mesh.ring.len()).map(stays)).collect()
+}
