@@ -77,8 +77,7 @@ pub fn run(order: Order, watch: &mut dyn Watch) -> Result<Job, Interrupted> {
     }
     job.judge(&structure, order.joint, template, watch)?;
     if order.joint != Joint::Lap {
-        job.structure = Some(structure);
-        return Ok(job);
+        return Ok(Job { structure: Some(structure), ..job });
     }
     watch.progress("parts", 0, 1);
     let name = structure.name().to_owned();
@@ -299,7 +298,10 @@ fn judged(verdict: &Verdict, accepted: Option<&str>) -> Vec<Finding> {
 fn shape(part: &Part, kerf: Kerf, template: &Template) -> Shape {
     let drawn = kerf.compensated(&part.region.outline);
     let outline = drawn.enclosing_polygon(ARC_SAGITTA_MM);
-    Shape { name: part.id.clone(), outline, turns: turns(template) }
+    let holes = part.region.holes.iter();
+    let hole = |hole| kerf.compensated(hole).flattened(ARC_SAGITTA_MM);
+    let holes = holes.map(hole).collect();
+    Shape { name: part.id.clone(), outline, holes, turns: turns(template) }
 }
 
 /// Grain must run along the parts.
@@ -319,7 +321,8 @@ fn tolerance(template: &Template) -> Tolerance {
     }
 }
 
-fn stock(template: &Template) -> Vec<Stock> {
+/// The sheets of a template.
+pub fn stock(template: &Template) -> Vec<Stock> {
     let sheets = template.sheet.iter().map(|sheet| Stock {
         width: sheet.width_mm,
         height: sheet.height_mm,

@@ -144,3 +144,12 @@ pub const LEAST_DAMPING: f64 = 1e-8;
 
 /// Angle by which a boundary turns at a corner of the base mesh, radians.
 pub const CORNER_TURN: f64 = std::f64::consts::FRAC_PI_4;
+/// Distance that the nester keeps beyond what is asked, for the rounding of placements to
+/// 1e-6 mm and 1e-7 degrees, mm.
+pub const NEST_SLACK_MM: f64 = 2e-5;
+
+/// How far the nester's simplified outline may be outside the true one, mm, ...
+pub const NEST_SIMPLIFY_MM: f64 = 0.02;
+
+/// ... and as a share of the part's size.
+pub const NEST_SIMPLIFY: f64 = 2e-4;

@@ -1,6 +1,7 @@
 //! What was typed.
 
 use crate::cli::coupon::{self, CouponArgs};
+use crate::cli::nest;
 use crate::cli::planarise::{PLANARISE_HELP, PlanariseArgs, PlanariseWhen};
 use crate::cli::rigidity;
 use crate::cli::verify::{self, VerifyArgs};
@@ -55,6 +56,10 @@ pub enum Command {
     /// Make a kerf and fit coupon for a material, or read one
     #[command(after_help = coupon::HELP)]
     Coupon(CouponArgs),
+
+    /// Nest parts on sheets, or in a strip
+    #[command(after_help = nest::HELP)]
+    Nest(nest::NestArgs),
 
     /// Show materials and machines
     #[command(after_help = TEMPLATE_HELP)]
@@ -290,7 +295,7 @@ pub(super) fn numbers(text: &str) -> Result<Vec<f64>, String> {
     text.split(',').map(number).collect()
 }
 
-fn seconds(text: &str) -> Result<f64, String> {
+pub(super) fn seconds(text: &str) -> Result<f64, String> {
     match numbers(text)?.as_slice() {
         &[seconds] if seconds > 0.0 && seconds <= 1e6 => Ok(seconds),
         _ => Err(format!("{text:?} is no number of seconds")),

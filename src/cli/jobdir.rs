@@ -83,7 +83,15 @@ fn may_be_replaced(dir: &Path) -> bool {
         .ok()
         .and_then(|text| serde_json::from_str::<serde_json::Value>(&text).ok())
         .is_some_and(|job| job["format"] == "finwright-job");
+    let ours = ours || is_layout(dir);
     ours || fs::read_dir(dir).is_ok_and(|mut entries| entries.next().is_none())
+}
+
+/// Whether `finwright nest` wrote it.
+fn is_layout(dir: &Path) -> bool {
+    let text = fs::read_to_string(dir.join("layout.json")).unwrap_or_default();
+    serde_json::from_str::<serde_json::Value>(&text)
+        .is_ok_and(|layout| layout["format"] == "finwright-layout")
 }
 
 fn write_files(new: &Path, files: &[JobFile]) -> io::Result<()> {

@@ -5,6 +5,8 @@ mod args;
 mod coupon;
 mod input;
 mod jobdir;
+mod nest;
+mod nest_input;
 mod planarise;
 mod rigidity;
 mod run;

@@ -7,6 +7,7 @@ use crate::cli::args::{
 use crate::cli::coupon;
 use crate::cli::input::{self, Input, InputError};
 use crate::cli::jobdir::{self, JobDirError, JobFile};
+use crate::cli::nest;
 use crate::cli::planarise;
 use crate::cli::rigidity;
 use crate::cli::show::{self, Terminal, Voice};
@@ -42,6 +43,7 @@ pub(super) enum End {
 
 /// Why a command could not run.
 pub(super) enum Failure {
+    Other(Box<dyn Diagnostic>),
     Input(InputError),
     JobDir(JobDirError),
     Verify(VerifyError),
@@ -82,6 +84,7 @@ pub fn run(cli: Cli) -> ExitCode {
         Command::Verify(args) => args.json,
         Command::Coupon(args) => args.json,
         Command::Check(args) => args.input.json,
+        Command::Nest(args) => args.json,
         _ => false,
     };
     let end = match cli.command {
@@ -92,6 +95,7 @@ pub fn run(cli: Cli) -> ExitCode {
         Command::Coupon(args) => coupon::run(&args, voice),
         Command::Verify(args) => verify::run(&args, voice),
         Command::Planarise(args) => planarise::run(&args, voice),
+        Command::Nest(args) => nest::run(&args, voice),
         Command::Template { action } => templates(action),
         Command::Example { action } => example(action),
         Command::Completions { shell } => {
@@ -111,6 +115,10 @@ pub fn run(cli: Cli) -> ExitCode {
         Failure::Verify(error) => {
             let findings = || vec![Finding::new(&error, Place::default())];
             complain(&error, &error.to_string(), json.then(findings))
+        }
+        Failure::Other(error) => {
+            let findings = || vec![Finding::new(&*error, Place::default())];
+            complain(&*error, &error.to_string(), json.then(findings))
         }
         Failure::Interrupted => {
             let _ = writeln!(std::io::stderr(), "interrupted; nothing was written");

@@ -8,7 +8,7 @@
 //! *not* their distance: a corner that faces the middle of a long edge need not be joined
 //! to it.)
 
-use crate::geometry::predicates::{Side, side};
+use crate::geometry::predicates::{Side, segments_meet, side};
 use crate::geometry::{Point2, Vector2, trig};
 use crate::nest::{Layout, NestedSheet, Placement, Shape, Stock};
 use crate::tolerance::PLACED_MM;
@@ -26,6 +26,8 @@ pub enum Fault {
     Overlap { sheet: usize, first: String, second: String },
     #[error("sheet {sheet}: {first} and {second} are {distance:.6} mm apart")]
     TooNear { sheet: usize, first: String, second: String, distance: f64 },
+    #[error("sheet {sheet}: the lines of {name} cross each other")]
+    CrossesItself { sheet: usize, name: String },
     #[error("sheet {sheet}: {name} reaches into the margin by {by:.6} mm")]
     InMargin { sheet: usize, name: String, by: f64 },
     #[error("sheet {sheet}: the outlines cannot be triangulated: {reason}")]
@@ -51,18 +53,26 @@ pub fn check(layout: &Layout, shapes: &[Shape], stock: &[Stock]) -> Vec<Fault> {
     let sheets = layout.sheets.iter().enumerate();
     sheets
         .flat_map(|(sheet, nested)| {
-            let rings =
-                nested.placements.iter().map(|p| placed(&shapes[p.shape].outline, p));
-            let checked = Checked {
-                sheet,
-                nested,
-                shapes,
-                stock: &stock[nested.stock],
-                rings: rings.collect(),
-            };
-            checked.faults()
+            let stock = &stock[nested.stock];
+            let rings = rings(nested, shapes);
+            Checked { sheet, nested, shapes, stock, rings }.faults()
         })
         .collect()
+}
+
+/// All rings of a sheet where they lie: of each part the outline, then its holes.
+fn rings(nested: &NestedSheet, shapes: &[Shape]) -> Vec<Ring> {
+    let of = |(owner, p): (usize, &Placement)| {
+        let shape = &shapes[p.shape];
+        let ring = |points: &[Point2], is_hole| Ring {
+            owner,
+            is_hole,
+            points: placed(points, p),
+        };
+        let holes = shape.holes.iter().map(|hole| ring(hole, true));
+        std::iter::once(ring(&shape.outline, false)).chain(holes).collect::<Vec<_>>()
+    };
+    nested.placements.iter().enumerate().flat_map(of).collect()
 }
 
 /// An outline where it lies.
@@ -73,17 +83,25 @@ fn placed(outline: &[Point2], placement: &Placement) -> Vec<Point2> {
     outline.iter().map(|p| Point2::from(turn(p) + shift)).collect()
 }
 
+/// One closed line of a part.
+struct Ring {
+    /// Index of the placement.
+    owner: usize,
+    is_hole: bool,
+    points: Vec<Point2>,
+}
+
 struct Checked<'a> {
     sheet: usize,
     nested: &'a NestedSheet,
     shapes: &'a [Shape],
     stock: &'a Stock,
-    rings: Vec<Vec<Point2>>,
+    rings: Vec<Ring>,
 }
 
 impl Checked<'_> {
-    fn name(&self, ring: usize) -> String {
-        self.shapes[self.nested.placements[ring].shape].name.clone()
+    fn name(&self, owner: usize) -> String {
+        self.shapes[self.nested.placements[owner].shape].name.clone()
     }
 
     fn overlap(&self, first: usize, second: usize) -> Fault {
@@ -112,27 +130,38 @@ impl Checked<'_> {
             let low = (margin - p.x).max(margin - p.y);
             low.max(p.x - stock.width + margin).max(p.y - stock.height + margin)
         };
-        let rings = self.rings.iter().enumerate();
-        rings
-            .map(|(k, ring)| (k, ring.iter().map(out).fold(f64::NEG_INFINITY, f64::max)))
+        let outlines = self.rings.iter().filter(|ring| !ring.is_hole);
+        let worst = |points: &[Point2]| {
+            let out = points.iter().map(out);
+            // Not a number is out, too.
+            out.fold(f64::NEG_INFINITY, |a, b| if a >= b { a } else { b })
+        };
+        outlines
+            .map(|ring| (ring.owner, worst(&ring.points)))
             .filter(|(_, by)| by.is_nan() || *by > PLACED_MM)
             .map(|(k, by)| Fault::InMargin { sheet: self.sheet, name: self.name(k), by })
             .collect()
     }
 
-    /// Parts inside another part, found by one corner of each.
+    /// Parts inside the material of another part, found by one corner of each.
     fn nested_in_another(&self) -> Vec<Fault> {
+        let mut insides: Vec<Vec<usize>> = vec![Vec::new(); self.nested.placements.len()];
         let bounds: Vec<(Point2, Point2)> =
-            self.rings.iter().map(|r| bounds(r)).collect();
+            self.rings.iter().map(|ring| bounds(&ring.points)).collect();
         let mut faults = Vec::new();
-        for (inner, ring) in self.rings.iter().enumerate() {
-            let p = ring[0];
-            for (outer, &(low, high)) in bounds.iter().enumerate() {
+        for inner in self.rings.iter().filter(|ring| !ring.is_hole) {
+            let p = inner.points[0];
+            insides.iter_mut().for_each(Vec::clear);
+            for (ring, (low, high)) in self.rings.iter().zip(&bounds) {
                 let near = low.x <= p.x && p.x <= high.x && low.y <= p.y && p.y <= high.y;
-                if inner != outer && near && contains(&self.rings[outer], p) {
-                    faults.push(self.overlap(inner, outer));
+                if near && ring.owner != inner.owner && contains(&ring.points, p) {
+                    insides[ring.owner].push(usize::from(ring.is_hole));
                 }
             }
+            // In the outline and in no hole.
+            let overlapped =
+                insides.iter().enumerate().filter(|(_, inside)| inside[..] == [0]);
+            faults.extend(overlapped.map(|(outer, _)| self.overlap(inner.owner, outer)));
         }
         faults
     }
@@ -145,9 +174,10 @@ impl Checked<'_> {
         let mut edges = Vec::new();
         let mut known: BTreeMap<[u64; 2], usize> = BTreeMap::new();
         let mut faults = Vec::new();
-        for (owner, ring) in self.rings.iter().enumerate() {
+        for Ring { owner, points, .. } in &self.rings {
+            let owner = *owner;
             let mut indices: Vec<usize> = Vec::new();
-            for p in ring {
+            for p in points {
                 let key = [p.x + 0.0, p.y + 0.0].map(f64::to_bits);
                 let index = *known.entry(key).or_insert(corners.len());
                 if index == corners.len() {
@@ -163,6 +193,8 @@ impl Checked<'_> {
             );
         }
         let owners: Vec<usize> = corners.iter().map(|corner| corner.owner).collect();
+        let positions: Vec<Point2> =
+            corners.iter().map(|corner| Point2::new(corner.at.x, corner.at.y)).collect();
         let mut conflicts = Vec::new();
         let loaded =
             ConstrainedDelaunayTriangulation::try_bulk_load_cdt(corners, edges, |edge| {
@@ -172,12 +204,26 @@ impl Checked<'_> {
             sheet: self.sheet,
             reason: error.to_string(),
         })?;
-        faults.extend(conflicts.into_iter().map(|[a, _]| {
+        for [a, b] in conflicts {
             let owner = owners.get(a).copied().unwrap_or(0);
-            let second = "another part".to_owned();
-            Fault::Overlap { sheet: self.sheet, first: self.name(owner), second }
-        }));
+            faults.extend(self.crossed(owner, positions[a], positions[b]));
+        }
         Ok((triangulation, faults))
+    }
+
+    /// Whose lines a line of a part crosses: of other parts, or its own.
+    fn crossed(&self, owner: usize, a: Point2, b: Point2) -> Vec<Fault> {
+        let crosses = |ring: &&Ring| {
+            let next = ring.points.iter().cycle().skip(1);
+            let mut edges = ring.points.iter().zip(next);
+            ring.owner != owner && edges.any(|(c, d)| segments_meet(a, b, *c, *d))
+        };
+        let others = self.rings.iter().filter(crosses);
+        let faults: Vec<Fault> = others.map(|r| self.overlap(owner, r.owner)).collect();
+        if !faults.is_empty() {
+            return faults;
+        }
+        vec![Fault::CrossesItself { sheet: self.sheet, name: self.name(owner) }]
     }
 
     /// Corners nearer to an edge of another part than the spacing.
@@ -207,12 +253,13 @@ impl Checked<'_> {
     }
 }
 
-fn bounds(ring: &[Point2]) -> (Point2, Point2) {
+/// Corners of the box around a ring.
+pub(super) fn bounds(ring: &[Point2]) -> (Point2, Point2) {
     ring.iter().fold((ring[0], ring[0]), |(low, high), p| (low.inf(p), high.sup(p)))
 }
 
 /// Whether a polygon contains a point, exactly (crossings of a ray to the right).
-fn contains(ring: &[Point2], p: Point2) -> bool {
+pub(super) fn contains(ring: &[Point2], p: Point2) -> bool {
     let edges = ring.iter().zip(ring.iter().cycle().skip(1));
     let crossed = edges.filter(|(a, b)| {
         let upward = a.y <= p.y && p.y < b.y;

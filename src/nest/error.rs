@@ -32,6 +32,14 @@ pub enum NestError {
     )]
     StockUsedUp { name: String },
 
+    #[error("the outline of {name} cannot be cut: {why}")]
+    #[diagnostic(
+        code(nest::bad_outline),
+        severity(Warning),
+        help("draw it as one closed line that neither crosses nor touches itself")
+    )]
+    BadOutline { name: String, why: &'static str },
+
     #[error("no sound layout was found: {fault}")]
     #[diagnostic(
         code(nest::unsound),
@@ -65,9 +73,9 @@ impl NestError {
 impl Located for NestError {
     fn place(&self) -> Place {
         match self {
-            Self::PartTooLarge { name, .. } | Self::StockUsedUp { name } => {
-                Place::part(name.clone())
-            }
+            Self::PartTooLarge { name, .. }
+            | Self::BadOutline { name, .. }
+            | Self::StockUsedUp { name } => Place::part(name.clone()),
             Self::Unsound { .. } | Self::Stopped => Place::default(),
         }
     }

@@ -1,23 +1,34 @@
 //! Parts on sheets of stock.
 //!
 //! The caller gives shapes and stock and gets a [`Layout`] that has passed the exact
-//! [`check`]; how it is found is this module's own business. Today: a *drop* nester. Parts
-//! go in from large to small; each is let down from above at every place and in a few
-//! turns onto what lies there already, and stays where it leaves least room lost. Several
-//! orders are tried, a seeded number of trials, never seconds.
+//! [`check`]; how it is found is this module's own business. First a *drop* nester gives a
+//! sound layout ([`start`]). Then parts are let overlap and separated again on fewer or
+//! smaller sheets ([`search`]), and the emptiest sheet is pressed together so that a
+//! rectangle of it is left over. Work is counted in evaluations, never in seconds.
 
 mod check;
+mod compress;
+mod crowd;
 mod drop;
 mod error;
+mod pieces;
+mod random;
+mod refuse;
+mod search;
+mod separate;
+mod start;
 mod turn;
+mod turned;
 
 pub use check::{Fault, check};
 pub use error::NestError;
+pub use refuse::refused;
 pub use turn::fits;
 
 use crate::geometry::Point2;
+use crate::tolerance::{ROOM_MM, WRITTEN_MM};
 use crate::watch::Watch;
-use drop::Board;
+use separate::Budget;
 
 /// A part as the nester sees it.
 #[derive(Debug, Clone, PartialEq)]
@@ -27,6 +38,8 @@ pub struct Shape {
     /// The curve that must keep its distance (the drawn cut line, arcs flattened),
     /// counter-clockwise, mm.
     pub outline: Vec<Point2>,
+    /// Holes in it, in which other parts may lie.
+    pub holes: Vec<Vec<Point2>>,
     /// Which turns are allowed.
     pub turns: Turns,
 }
@@ -84,18 +97,38 @@ pub struct Layout {
     pub sheets: Vec<NestedSheet>,
 }
 
-/// How hard to search, counted in trials: the same effort gives the same layout on every
-/// machine.
+/// How hard to search, counted in work, not time: the same effort gives the same layout on
+/// every machine.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Effort {
-    /// Orders of parts that are tried.
+    /// Units of work, 20,000 evaluations each; 1 is the first
+    /// layout without any search; `u32::MAX` until the watch has enough.
     pub trials: u32,
     /// Start of the random numbers.
     pub seed: u64,
 }
 
-/// Sheets that are still open for further parts.
-const OPEN_SHEETS: usize = 4;
+/// What a search found.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Found {
+    /// Sound: it has passed the check.
+    pub layout: Layout,
+    /// What could not be placed, and why.
+    pub unplaced: Vec<NestError>,
+    /// Trials that give the same result again ([`Effort::trials`]).
+    pub trials: u32,
+}
+
+/// Parts in a strip of fixed height.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Strip {
+    /// Where the parts lie, on one sheet as long as the strip.
+    pub layout: Layout,
+    /// Length of the strip, margin included, mm.
+    pub length: f64,
+    /// Trials that give the same result again.
+    pub trials: u32,
+}
 
 /// Lays all shapes on sheets of the stock; earlier entries of the stock are opened first,
 /// and a sheet whose parts fit a smaller size becomes one.
@@ -109,131 +142,77 @@ pub fn nest(
     effort: &Effort,
     watch: &mut dyn Watch,
 ) -> Result<Layout, NestError> {
+    let found = search(shapes, stock, effort, watch)?;
+    match found.unplaced.into_iter().next() {
+        Some(error) => Err(error),
+        None if watch.stopped() => Err(NestError::Stopped),
+        None => Ok(found.layout),
+    }
+}
+
+/// As [`nest`], but lays what can be laid and says what cannot.
+///
+/// # Errors
+/// [`NestError::Stopped`] before there was a layout; [`NestError::Unsound`] if none passed
+/// the check.
+pub fn search(
+    shapes: &[Shape],
+    stock: &[Stock],
+    effort: &Effort,
+    watch: &mut dyn Watch,
+) -> Result<Found, NestError> {
+    let (start, unplaced) = start::start(shapes, stock, effort, watch)?;
+    if effort.trials <= 1 {
+        return Ok(Found { layout: start, unplaced, trials: 1 });
+    }
+    let mut budget = budget(effort, watch);
+    let denser = search::denser(&start, shapes, stock, effort.seed, &mut budget);
+    let trials = trials(&budget);
+    let sound = |layout: &Layout| check(layout, shapes, stock).is_empty();
+    let layout = denser.filter(sound).unwrap_or(start);
+    Ok(Found { layout, unplaced, trials })
+}
+
+/// Packs all shapes into a strip as high as the sheet and as short as can be; the sheet's
+/// width does not count.
+///
+/// # Errors
+/// [`NestError`] names a shape that does not fit the height, or the fault if the result
+/// did not pass the check.
+pub fn strip(
+    shapes: &[Shape],
+    sheet: &Stock,
+    effort: &Effort,
+    watch: &mut dyn Watch,
+) -> Result<Strip, NestError> {
+    let endless = Stock { width: 1e9, ..sheet.clone() };
     for shape in shapes {
-        if !stock.iter().any(|sheet| fits(&shape.outline, &shape.turns, sheet).is_some())
-        {
-            return Err(NestError::too_large(shape, stock));
+        if fits(&shape.outline, &shape.turns, &endless).is_none() {
+            return Err(NestError::too_large(shape, &[endless]));
         }
     }
-    let mut best: Option<(f64, Layout)> = None;
-    let mut failure = NestError::Stopped;
-    for trial in 0..effort.trials.max(1) {
-        watch.progress("nest", trial as usize, effort.trials as usize);
-        if watch.stopped() || (best.is_some() && watch.enough()) {
-            break;
-        }
-        let order = order(shapes, trial, effort.seed);
-        let tried =
-            lay(shapes, stock, &order).and_then(|layout| sound(layout, shapes, stock));
-        match tried {
-            Ok((cost, layout))
-                if best.as_ref().is_none_or(|(least, _)| cost < *least) =>
-            {
-                best = Some((cost, layout));
-            }
-            Ok(_) => {}
-            Err(error) => failure = error,
-        }
-    }
-    match best {
-        Some((_, layout)) if !watch.stopped() => Ok(layout),
-        Some(_) => Err(NestError::Stopped),
-        None => Err(failure),
+    let unsound = |fault: String| NestError::Unsound { fault };
+    let mut budget = budget(effort, watch);
+    let packed = search::strip(shapes, sheet, effort.seed, &mut budget);
+    let trials = trials(&budget);
+    let (placements, length) =
+        packed.ok_or_else(|| unsound("an outline crosses itself".into()))?;
+    let length = ((length + ROOM_MM) / WRITTEN_MM).ceil() * WRITTEN_MM;
+    let layout = Layout { sheets: vec![NestedSheet { stock: 0, placements }] };
+    match check(&layout, shapes, &[Stock { width: length, ..sheet.clone() }]).first() {
+        None => Ok(Strip { layout, length, trials }),
+        Some(fault) => Err(unsound(fault.to_string())),
     }
 }
 
-/// Large parts first; later trials shuffle sizes by up to a third.
-fn order(shapes: &[Shape], trial: u32, seed: u64) -> Vec<usize> {
-    let mut state = seed ^ (u64::from(trial) << 32);
-    let keys = shapes.iter().map(|shape| {
-        let shuffle = if trial == 0 { 0.0 } else { random(&mut state) - 0.5 };
-        turn::longest(&shape.outline) * (1.0 + 0.6 * shuffle)
-    });
-    let mut keyed: Vec<(usize, f64)> = keys.enumerate().collect();
-    keyed.sort_by(|a, b| b.1.total_cmp(&a.1).then(a.0.cmp(&b.0)));
-    keyed.into_iter().map(|(index, _)| index).collect()
-}
-
-/// The next number of splitmix64, in [0, 1).
-fn random(state: &mut u64) -> f64 {
-    *state = state.wrapping_add(0x9E37_79B9_7F4A_7C15);
-    let mut z = *state;
-    z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
-    z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
-    ((z ^ (z >> 31)) >> 11) as f64 / (1_u64 << 53) as f64
-}
-
-/// One layout: each part goes on the first open sheet that takes it.
-fn lay(
-    shapes: &[Shape],
-    stock: &[Stock],
-    order: &[usize],
-) -> Result<Vec<Board>, NestError> {
-    let mut boards: Vec<Board> = Vec::new();
-    for &index in order {
-        let shape = &shapes[index];
-        let first_open = boards.len().saturating_sub(OPEN_SHEETS);
-        if boards[first_open..].iter_mut().any(|board| board.place(index, shape)) {
-            continue;
-        }
-        let used =
-            |kind: usize| boards.iter().filter(|board| board.stock == kind).count();
-        let fresh = stock.iter().enumerate().find_map(|(kind, sheet)| {
-            let left = sheet.count.is_none_or(|count| used(kind) < count);
-            let mut board = Board::new(kind, sheet);
-            (left && board.place(index, shape)).then_some(board)
-        });
-        boards.push(fresh.ok_or_else(|| NestError::used_up(shape))?);
-    }
-    Ok(boards)
-}
-
-/// Smaller sheets where they do, then the exact check; the first value is the cost.
-fn sound(
-    boards: Vec<Board>,
-    shapes: &[Shape],
-    stock: &[Stock],
-) -> Result<(f64, Layout), NestError> {
-    let boards = smaller(boards, shapes, stock);
-    let area = |board: &Board| stock[board.stock].width * stock[board.stock].height;
-    let last = boards.last().map_or(0.0, |board| board.filled() / 1e3);
-    let cost = boards.iter().map(area).sum::<f64>() + last;
-    let sheets = boards.into_iter().map(Board::nested).collect();
-    let layout = Layout { sheets };
-    match check(&layout, shapes, stock).first() {
-        None => Ok((cost, layout)),
-        Some(fault) => Err(NestError::Unsound { fault: fault.to_string() }),
-    }
-}
-
-/// Each sheet as the smallest size on which its parts still fit.
-fn smaller(boards: Vec<Board>, shapes: &[Shape], stock: &[Stock]) -> Vec<Board> {
-    let mut used = vec![0; stock.len()];
-    for board in &boards {
-        used[board.stock] += 1;
-    }
-    let area = |kind: usize| stock[kind].width * stock[kind].height;
-    let mut kinds: Vec<usize> = (0..stock.len()).collect();
-    kinds.sort_by(|&a, &b| area(a).total_cmp(&area(b)).then(a.cmp(&b)));
-    let mut shrink = |board: Board| {
-        let fitting = kinds.iter().copied().find_map(|kind| {
-            let left = stock[kind].count.is_none_or(|count| used[kind] < count);
-            if area(kind) >= area(board.stock) || !left {
-                return None;
-            }
-            let mut small = Board::new(kind, &stock[kind]);
-            let indices = board.placements.iter().map(|placement| placement.shape);
-            let all = indices.into_iter().all(|k| small.place(k, &shapes[k]));
-            all.then_some(small)
-        });
-        match fitting {
-            Some(small) => {
-                used[board.stock] -= 1;
-                used[small.stock] += 1;
-                small
-            }
-            None => board,
-        }
+fn budget<'a>(effort: &Effort, watch: &'a mut dyn Watch) -> Budget<'a> {
+    let units = match effort.trials {
+        u32::MAX => u64::MAX,
+        trials => u64::from(trials),
     };
-    boards.into_iter().map(&mut shrink).collect()
+    Budget { units, done: 0, watch, over: false }
+}
+
+fn trials(budget: &Budget) -> u32 {
+    u32::try_from(budget.done).unwrap_or(u32::MAX)
 }

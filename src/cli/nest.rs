@@ -1,0 +1,271 @@
+//! `finwright nest`: parts of any origin onto sheets, or into a strip.
+
+use crate::cli::args::EffortLevel;
+use crate::cli::input::{self, InputError};
+use crate::cli::jobdir::{self, JobFile};
+use crate::cli::nest_input::{self, Order, Task};
+use crate::cli::run::{End, Failure};
+use crate::cli::show::{Terminal, Voice};
+use crate::diagnostic::{Finding, Located, Severity};
+use crate::export;
+use crate::gate::approve_loose;
+use crate::nest::{self, Effort, Found, NestError, Shape, Stock};
+use crate::report::{Nested, layout_json, layout_sheets};
+use crate::watch::Watch;
+use clap::Args;
+use std::path::{Path, PathBuf};
+
+/// Shown after the help of `nest`.
+pub(super) const HELP: &str = "\
+Examples:
+  finwright nest parts.json -o out/parts
+      parts on the sheets that the file names
+  finwright nest parts.json --sheet 600x400 --sheet 1000x600 --spacing 2 --margin 5
+      on sheets of two sizes, as many of each as needed; the smaller one is tried first
+  finwright nest swim.json --time-limit 60
+      a strip-packing instance; the units of work that repeat the result are printed
+  finwright nest --check out/parts/layout.json
+      whether parts overlap, come too near, or reach into the margin";
+
+/// Arguments of `nest`.
+#[derive(Debug, Args)]
+pub struct NestArgs {
+    /// Parts to nest: a finwright-parts or a strip-packing file (.json)
+    pub input: PathBuf,
+
+    /// Only check a layout.json that was written before
+    #[arg(long)]
+    pub check: bool,
+
+    /// Take the sheets of this template
+    #[arg(short, long, value_name = "TEMPLATE", conflicts_with = "sheet")]
+    pub template: Option<String>,
+
+    /// Size of a sheet in mm; may be given more than once
+    #[arg(long, value_name = "WxH", value_parser = size)]
+    pub sheet: Vec<[f64; 2]>,
+
+    /// Least distance between parts, mm [default: as the file says, else 2 on sheets and 0
+    /// in strips]
+    #[arg(long, value_name = "MM", value_parser = length)]
+    pub spacing: Option<f64>,
+
+    /// Free strip along the sheet's edge, mm [default: as the file says, else 5 on sheets
+    /// and 0 in strips]
+    #[arg(long, value_name = "MM", value_parser = length)]
+    pub margin: Option<f64>,
+
+    /// Keep holes of parts free
+    #[arg(long)]
+    pub no_parts_in_holes: bool,
+
+    /// Folder for layout and sheets [default: out/<name>]
+    #[arg(short, long, value_name = "DIR")]
+    pub output: Option<PathBuf>,
+
+    /// Seed of the search
+    #[arg(long, default_value_t = 0)]
+    pub seed: u64,
+
+    /// How hard to search
+    #[arg(long, value_enum, default_value = "normal")]
+    pub effort: EffortLevel,
+
+    /// Search for this many units of work instead
+    #[arg(long, value_name = "UNITS", conflicts_with_all = ["effort", "time_limit"])]
+    pub work: Option<u32>,
+
+    /// Search for this long instead; prints the units of work that repeat the result
+    #[arg(long, value_name = "SECONDS", conflicts_with = "effort",
+          value_parser = super::args::seconds)]
+    pub time_limit: Option<f64>,
+
+    /// Print layout.json on standard output
+    #[arg(long)]
+    pub json: bool,
+}
+
+fn length(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(mm) if (0.0..=1e6).contains(&mm) => Ok(mm),
+        _ => Err(format!("{text:?} is no length in mm")),
+    }
+}
+
+fn size(text: &str) -> Result<[f64; 2], String> {
+    let wrong = || format!("{text:?} is no size; write 600x400 for 600 by 400 mm");
+    let (width, height) = text.split_once('x').ok_or_else(wrong)?;
+    match (length(width)?, length(height)?) {
+        (width, height) if width > 0.0 && height > 0.0 => Ok([width, height]),
+        _ => Err(wrong()),
+    }
+}
+
+/// The first Ctrl-C ends the search, which then gives the best so far.
+struct UntilStopped(Terminal);
+
+impl Watch for UntilStopped {
+    fn progress(&mut self, stage: &'static str, done: usize, total: usize) {
+        self.0.progress(stage, done, total);
+    }
+
+    fn stopped(&self) -> bool {
+        false
+    }
+
+    fn enough(&self) -> bool {
+        self.0.enough() || self.0.stopped()
+    }
+}
+
+/// Runs the command.
+pub(super) fn run(args: &NestArgs, voice: Voice) -> Result<End, Failure> {
+    let text = input::text_of(&args.input)?;
+    let name = args.input.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+    let wrong = |source| Failure::Other(Box::new(source));
+    if args.check {
+        let layout = nest_input::layout(&text, &name).map_err(wrong)?;
+        return Ok(checked(&layout, voice));
+    }
+    let mut order = nest_input::order(&text, &name).map_err(wrong)?;
+    set_up(&mut order, args)?;
+    let mut watch = UntilStopped(Terminal::new(voice, args.time_limit));
+    let nested = nested(&mut order, &effort(args), &mut watch);
+    watch.0.finish();
+    let nested = nested.map_err(|error| Failure::Other(Box::new(error)))?;
+    let dir = args.output.clone().unwrap_or_else(|| Path::new("out").join(&order.name));
+    deliver(&order, &nested, args, &dir)?;
+    voice.findings(&left_over(&nested.unplaced));
+    voice.say(&summary(&nested, args, &dir));
+    Ok(End::Done)
+}
+
+/// What could not be placed is a warning: the rest can be cut.
+fn left_over(unplaced: &[NestError]) -> Vec<Finding> {
+    let warning = |error: &NestError| Finding {
+        severity: Severity::Warning,
+        ..Finding::new(error, error.place())
+    };
+    unplaced.iter().map(warning).collect()
+}
+
+/// What was typed goes before what the file says.
+fn set_up(order: &mut Order, args: &NestArgs) -> Result<(), InputError> {
+    if let Some(name) = &args.template {
+        let template = input::template(name)?;
+        order.stock = crate::job::stock(&template);
+    }
+    if !args.sheet.is_empty() {
+        let (spacing, margin) =
+            order.stock.first().map_or((2.0, 5.0), |s| (s.spacing, s.margin));
+        let stock = |&[width, height]: &[f64; 2]| Stock {
+            width,
+            height,
+            margin,
+            spacing,
+            count: None,
+        };
+        order.stock = args.sheet.iter().map(stock).collect();
+    }
+    for stock in &mut order.stock {
+        stock.spacing = args.spacing.unwrap_or(stock.spacing);
+        stock.margin = args.margin.unwrap_or(stock.margin);
+    }
+    order.holes_closed = args.no_parts_in_holes;
+    Ok(())
+}
+
+fn effort(args: &NestArgs) -> Effort {
+    let by_level = match args.effort {
+        EffortLevel::Quick => 1,
+        EffortLevel::Normal => 128,
+        EffortLevel::Thorough => 2048,
+    };
+    let trials = match args.time_limit {
+        Some(_) => u32::MAX,
+        None => args.work.unwrap_or(by_level),
+    };
+    Effort { trials, seed: args.seed }
+}
+
+fn nested(
+    order: &mut Order,
+    effort: &Effort,
+    watch: &mut dyn Watch,
+) -> Result<Nested, NestError> {
+    let refused: Vec<NestError> = order.shapes.iter().filter_map(nest::refused).collect();
+    order.shapes.retain(|shape| nest::refused(shape).is_none());
+    let closed: Vec<Shape>;
+    let shapes = if order.holes_closed {
+        let solid = |shape: &Shape| Shape { holes: Vec::new(), ..shape.clone() };
+        closed = order.shapes.iter().map(solid).collect();
+        &closed
+    } else {
+        &order.shapes
+    };
+    let mut nested = match order.task {
+        Task::Sheets => {
+            let Found { layout, unplaced, trials } =
+                nest::search(shapes, &order.stock, effort, watch)?;
+            Nested { layout, unplaced, trials, length: None, seed: effort.seed }
+        }
+        Task::Strip => {
+            let strip = nest::strip(shapes, &order.stock[0], effort, watch)?;
+            order.stock[0].width = strip.length;
+            let (layout, trials) = (strip.layout, strip.trials);
+            let length = Some(strip.length);
+            Nested { layout, unplaced: Vec::new(), trials, length, seed: effort.seed }
+        }
+    };
+    nested.unplaced.splice(0..0, refused);
+    Ok(nested)
+}
+
+fn deliver(
+    order: &Order,
+    nested: &Nested,
+    args: &NestArgs,
+    dir: &Path,
+) -> Result<(), Failure> {
+    let manifest = layout_json(&order.name, &order.shapes, &order.stock, nested);
+    let sheets = layout_sheets(&order.shapes, &order.stock, &nested.layout);
+    let text = serde_json::to_string_pretty(&manifest).unwrap_or_default() + "\n";
+    let mut files =
+        vec![JobFile { path: "layout.json".into(), bytes: text.into_bytes() }];
+    if let Some(approved) =
+        approve_loose(&sheets, &[]).filter(|sheets| !sheets.get().is_empty())
+    {
+        let cut = export::cut_files(&approved).into_iter();
+        files.extend(cut.map(|(path, bytes)| JobFile { path, bytes }));
+    }
+    jobdir::write(dir, &files)?;
+    if args.json {
+        crate::cli::run::print(&format!("{manifest}\n"));
+    }
+    Ok(())
+}
+
+fn summary(nested: &Nested, args: &NestArgs, dir: &Path) -> String {
+    let sheets = nested.layout.sheets.len();
+    let parts: usize = nested.layout.sheets.iter().map(|s| s.placements.len()).sum();
+    let place = dir.display();
+    let what = match nested.length {
+        Some(length) => format!("{parts} parts in a strip {length:.3} long in {place}"),
+        None => format!("{parts} parts on {sheets} sheet(s) in {place}"),
+    };
+    let again = format!("; --seed {} --work {} repeats it", args.seed, nested.trials);
+    if args.time_limit.is_some() { what + &again } else { what }
+}
+
+fn checked(order: &Order, voice: Voice) -> End {
+    let Task::Sheets = order.task else { return End::CouldNotRun };
+    let faults = nest::check(&order.layout, &order.shapes, &order.stock);
+    for fault in &faults {
+        Voice { quiet: false, ..voice }.say(&format!("error: {fault}"));
+    }
+    if faults.is_empty() {
+        voice.say("no overlap, and spacing and margin are kept");
+        return End::Done;
+    }
+    End::Refused
+}

@@ -1,0 +1,284 @@
+//! Parts and layouts from JSON (contract §5).
+
+use crate::geometry::Point2;
+use crate::nest::{Layout, NestedSheet, Placement, Shape, Stock, Turns};
+use miette::Diagnostic;
+use serde::Deserialize;
+use std::collections::BTreeMap;
+use thiserror::Error;
+
+/// Why a file is no parts and no layout.
+#[derive(Debug, Error, Diagnostic)]
+#[allow(missing_docs, reason = "the messages say it")]
+pub(super) enum NestInputError {
+    #[error("{name}: {source}")]
+    #[diagnostic(
+        code(read::not_parts),
+        help("parts are a finwright-parts file or a strip-packing instance, as JSON")
+    )]
+    Json { name: String, source: serde_json::Error },
+
+    #[error("{name}: {what}")]
+    #[diagnostic(
+        code(read::impossible_parts),
+        help("see docs/nesting.md for the format")
+    )]
+    Bad { name: String, what: String },
+}
+
+/// What is asked for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Task {
+    Sheets,
+    Strip,
+}
+
+/// Parts and where they may go.
+pub(super) struct Order {
+    pub name: String,
+    pub task: Task,
+    /// One for each copy of a part.
+    pub shapes: Vec<Shape>,
+    pub stock: Vec<Stock>,
+    pub holes_closed: bool,
+    /// Of a layout.json that was read.
+    pub layout: Layout,
+}
+
+type Ring = Vec<[f64; 2]>;
+
+#[derive(Deserialize)]
+struct File {
+    name: Option<String>,
+    spacing: Option<f64>,
+    #[serde(default)]
+    sheets: Vec<Sheet>,
+    #[serde(default)]
+    parts: Vec<Part>,
+    strip_height: Option<f64>,
+    #[serde(default)]
+    items: Vec<Item>,
+}
+
+#[derive(Deserialize)]
+struct Sheet {
+    width: f64,
+    height: f64,
+    margin: Option<f64>,
+    count: Option<usize>,
+    #[serde(default)]
+    placements: Vec<Placed>,
+}
+
+#[derive(Deserialize)]
+struct Placed {
+    part: String,
+    copy: usize,
+    x: f64,
+    y: f64,
+    angle_deg: f64,
+}
+
+#[derive(Deserialize)]
+struct Part {
+    id: String,
+    #[serde(default = "one")]
+    quantity: usize,
+    outline: Ring,
+    #[serde(default)]
+    holes: Vec<Ring>,
+    #[serde(default)]
+    rotations: Rotations,
+}
+
+const fn one() -> usize {
+    1
+}
+
+#[derive(Deserialize, Default)]
+#[serde(untagged)]
+enum Rotations {
+    #[default]
+    Free,
+    Word(String),
+    List(Vec<f64>),
+}
+
+#[derive(Deserialize)]
+struct Item {
+    id: serde_json::Value,
+    #[serde(default = "one")]
+    demand: usize,
+    allowed_orientations: Option<Vec<f64>>,
+    shape: ItemShape,
+}
+
+#[derive(Deserialize)]
+#[serde(tag = "type", content = "data", rename_all = "snake_case")]
+enum ItemShape {
+    SimplePolygon(Ring),
+    Polygon {
+        outer: Ring,
+        #[serde(default)]
+        inner: Vec<Ring>,
+    },
+}
+
+/// Most copies in one file: a typing error in a quantity should not fill the memory.
+const MOST_COPIES: usize = 1_000_000;
+
+/// Parts on sheets, or a strip.
+///
+/// # Errors
+/// [`NestInputError`] if the text is neither.
+pub(super) fn order(text: &str, name: &str) -> Result<Order, NestInputError> {
+    let file = file(text, name)?;
+    let bad =
+        |what: &str| NestInputError::Bad { name: name.to_owned(), what: what.to_owned() };
+    let (shapes, stock, task) = match file.strip_height {
+        Some(height) if height > 0.0 => {
+            let spacing = file.spacing.unwrap_or(0.0);
+            let stock =
+                Stock { width: 0.0, height, margin: 0.0, spacing, count: Some(1) };
+            (file.items.iter().flat_map(Item::shapes).collect(), vec![stock], Task::Strip)
+        }
+        Some(_) => return Err(bad("strip_height must be larger than 0")),
+        None => (
+            file.parts.iter().flat_map(Part::shapes).collect(),
+            file.stock(),
+            Task::Sheets,
+        ),
+    };
+    let shapes: Vec<Shape> = shapes;
+    let fine = |s: &Stock| {
+        let lengths = [s.width, s.height, s.margin, s.spacing];
+        lengths.iter().all(|mm| mm.is_finite() && (0.0..=1e6).contains(mm))
+    };
+    match () {
+        () if shapes.is_empty() => Err(bad("there are no parts in it")),
+        () if !stock.iter().all(fine) => Err(bad("a sheet has an impossible size")),
+        () => Ok(Order {
+            name: file
+                .name
+                .filter(|name| is_folder_name(name))
+                .unwrap_or(name.to_owned()),
+            task,
+            shapes,
+            stock,
+            holes_closed: false,
+            layout: Layout::default(),
+        }),
+    }
+}
+
+/// A layout.json with the parts that lie on its sheets.
+///
+/// # Errors
+/// [`NestInputError`] if the text is none.
+pub(super) fn layout(text: &str, name: &str) -> Result<Order, NestInputError> {
+    let file = file(text, name)?;
+    let bad = |what: String| NestInputError::Bad { name: name.to_owned(), what };
+    let shapes: Vec<Shape> = file.parts.iter().flat_map(Part::shapes).collect();
+    let ids =
+        file.parts.iter().flat_map(|p| (1..=p.quantity).map(|copy| (p.id.clone(), copy)));
+    let index: BTreeMap<(String, usize), usize> = ids.zip(0..).collect();
+    let mut layout = Layout::default();
+    for (stock, sheet) in file.sheets.iter().enumerate() {
+        let placement = |p: &Placed| {
+            let unknown = || bad(format!("{} copy {} is no part of it", p.part, p.copy));
+            let shape = *index.get(&(p.part.clone(), p.copy)).ok_or_else(unknown)?;
+            Ok(Placement { shape, angle: p.angle_deg.to_radians(), x: p.x, y: p.y })
+        };
+        let placements =
+            sheet.placements.iter().map(placement).collect::<Result<_, _>>()?;
+        layout.sheets.push(NestedSheet { stock, placements });
+    }
+    let stock = file.stock();
+    let (name, task) = (name.to_owned(), Task::Sheets);
+    Ok(Order { name, task, shapes, stock, holes_closed: false, layout })
+}
+
+fn file(text: &str, name: &str) -> Result<File, NestInputError> {
+    let file: File = serde_json::from_str(text)
+        .map_err(|source| NestInputError::Json { name: name.to_owned(), source })?;
+    let copies =
+        file.parts.iter().map(|p| p.quantity).chain(file.items.iter().map(|i| i.demand));
+    match copies.fold(0_usize, usize::saturating_add) {
+        count if count > MOST_COPIES => Err(NestInputError::Bad {
+            name: name.to_owned(),
+            what: format!("{count} copies are more than {MOST_COPIES}"),
+        }),
+        _ => Ok(file),
+    }
+}
+
+fn is_folder_name(name: &str) -> bool {
+    let fine = |c: char| c.is_alphanumeric() || "-_ ".contains(c);
+    !name.trim().is_empty() && name.chars().all(fine)
+}
+
+impl File {
+    fn stock(&self) -> Vec<Stock> {
+        let stock = |sheet: &Sheet| Stock {
+            width: sheet.width,
+            height: sheet.height,
+            margin: sheet.margin.unwrap_or(5.0),
+            spacing: self.spacing.unwrap_or(2.0),
+            count: sheet.count,
+        };
+        self.sheets.iter().map(stock).collect()
+    }
+}
+
+impl Part {
+    fn shapes(&self) -> Vec<Shape> {
+        let turns = match &self.rotations {
+            Rotations::List(degrees) if !degrees.is_empty() => degrees_only(degrees),
+            Rotations::Word(word) if word == "locked" => degrees_only(&[0.0]),
+            _ => Turns::Free,
+        };
+        let rings = [&self.outline].into_iter().chain(&self.holes);
+        copies(&self.id, self.quantity, rings.collect(), turns)
+    }
+}
+
+impl Item {
+    fn shapes(&self) -> Vec<Shape> {
+        let turns =
+            self.allowed_orientations.as_deref().map_or(Turns::Free, degrees_only);
+        let rings = match &self.shape {
+            ItemShape::SimplePolygon(ring) => vec![ring],
+            ItemShape::Polygon { outer, inner } => {
+                [outer].into_iter().chain(inner).collect()
+            }
+        };
+        let id = self.id.as_str().map_or_else(|| self.id.to_string(), str::to_owned);
+        copies(&id, self.demand, rings, turns)
+    }
+}
+
+fn degrees_only(degrees: &[f64]) -> Turns {
+    Turns::Only(degrees.iter().map(|degrees| degrees.to_radians()).collect())
+}
+
+fn copies(id: &str, count: usize, rings: Vec<&Ring>, turns: Turns) -> Vec<Shape> {
+    let mut rings = rings.into_iter().enumerate().map(|(k, ring)| points(ring, k == 0));
+    let outline = rings.next().unwrap_or_default();
+    let shape = Shape { name: id.to_owned(), outline, holes: rings.collect(), turns };
+    vec![shape; count]
+}
+
+/// Without repeated points; counter-clockwise as asked.
+fn points(ring: &Ring, counter_clockwise: bool) -> Vec<Point2> {
+    let mut points: Vec<Point2> = ring.iter().map(|&[x, y]| Point2::new(x, y)).collect();
+    points.dedup();
+    while points.len() > 1 && points.first() == points.last() {
+        points.pop();
+    }
+    let next = points.iter().cycle().skip(1);
+    let twice: f64 = points.iter().zip(next).map(|(a, b)| a.coords.perp(&b.coords)).sum();
+    if (twice < 0.0) == counter_clockwise {
+        points.reverse();
+    }
+    points
+}

@@ -1,0 +1,218 @@
+//! One room made narrower and narrower while everything still finds its place: strip
+//! packing, and the offcut of the last sheet.
+
+use crate::nest::crowd::{Crowd, Pose};
+use crate::nest::separate::Budget;
+use crate::nest::turned::Turned;
+
+/// Share by which the room shrinks while exploring.
+const STEP: f64 = 0.001;
+/// Steps of the last squeeze: from, down to, and the factor on failure.
+const SQUEEZE: [f64; 3] = [0.0005, 0.00001, 0.6];
+/// Failed attempts at one width before the best layout is squeezed.
+const ATTEMPTS: usize = 4;
+/// Candidates for each part of the first layout.
+const FILL_SAMPLES: usize = 200;
+
+impl Crowd<'_> {
+    /// Lays the parts one after another, large ones first, where they reach least far to
+    /// the right. Room 0 is made as wide as it needs.
+    pub(super) fn fill(&mut self) {
+        let mut order: Vec<usize> = (0..self.members.len()).collect();
+        let size = |part: &usize| self.shapes[self.members[*part].shape].size;
+        order.sort_by(|a, b| size(b).total_cmp(&size(a)).then(a.cmp(b)));
+        let mut scratch = Turned::default();
+        for part in order {
+            scratch.angle = f64::NAN;
+            let mut best: Option<(f64, Pose)> = None;
+            self.rooms[0][2] = self.used(0) + self.reach_of(part, &mut scratch);
+            for _ in 0..FILL_SAMPLES {
+                let Some(pose) = self.anywhere(part, &mut scratch) else { continue };
+                let far = |pose: &Pose| pose.x + scratch.bounds[2] + 0.05 * pose.y;
+                if best.is_some_and(|(least, _)| far(&pose) >= least) {
+                    continue;
+                }
+                if self.cost(part, &scratch, pose, f64::MIN_POSITIVE) <= 0.0 {
+                    let pose = self.slid(part, &scratch, pose);
+                    best = Some((far(&pose), pose));
+                }
+            }
+            let pose =
+                best.map(|(_, pose)| pose).or_else(|| self.beyond(part, &mut scratch));
+            if let Some(pose) = pose {
+                self.put(part, pose);
+            }
+        }
+        self.rooms[0][2] = self.used(0);
+    }
+
+    /// A length within which the part surely finds room.
+    fn reach_of(&self, part: usize, scratch: &mut Turned) -> f64 {
+        self.turn(part, 0.0, scratch);
+        let b = scratch.bounds;
+        2.0 * ((b[2] - b[0]) + (b[3] - b[1])) + 100.0 * crate::tolerance::NEST_SLACK_MM
+    }
+
+    /// To the right of everything, in a turn that fits the height.
+    fn beyond(&mut self, part: usize, scratch: &mut Turned) -> Option<Pose> {
+        let end = self.used(0);
+        (0..1000).find_map(|_| {
+            let pose = self.anywhere(part, scratch)?;
+            let x = end - scratch.bounds[0] + 2.0 * self.spacing();
+            self.rooms[0][2] = self.rooms[0][2].max(x + scratch.bounds[2]);
+            Some(Pose { x, ..pose })
+        })
+    }
+
+    /// Moved left and down as far as nothing is touched, by halving steps.
+    fn slid(&mut self, part: usize, turned: &Turned, mut pose: Pose) -> Pose {
+        let b = turned.bounds;
+        let mut step = (b[2] - b[0]).max(b[3] - b[1]);
+        let last = step / 500.0;
+        while step > last {
+            let mut moved = false;
+            for (dx, dy) in [(step, 0.0), (0.0, step)] {
+                let next = Pose { x: pose.x - dx, y: pose.y - dy, ..pose };
+                let Some(next) = self.inside(turned, next) else { continue };
+                let is_move = next != pose;
+                if is_move && self.cost(part, turned, next, f64::MIN_POSITIVE) <= 0.0 {
+                    pose = next;
+                    moved = true;
+                }
+            }
+            if !moved {
+                step /= 2.0;
+            }
+        }
+        pose
+    }
+
+    /// The right end of what lies in a room.
+    pub(super) fn used(&self, room: usize) -> f64 {
+        let members = self.members.iter().filter(|m| !m.turned.is_empty());
+        let inside = members.filter(|m| self.room_at(m.pose.x) == room);
+        inside.map(|m| m.pose.x + m.turned.bounds[2]).fold(self.rooms[room][0], f64::max)
+    }
+
+    /// Narrows a room as far as the budget goes; ends with the narrowest layout found
+    /// without overlap. The layout must have none to begin with.
+    pub(super) fn compress(&mut self, room: usize, budget: &mut Budget) {
+        let mut best = (self.used(room), self.poses());
+        let endless = budget.units == u64::MAX;
+        loop {
+            let work = self.work;
+            let explored = self.explore(room, &mut best, budget);
+            let squeezed = self.squeeze(room, &mut best, budget);
+            // Without an evaluation nothing can come of another round.
+            if budget.over || self.work == work || !(explored || squeezed || endless) {
+                break;
+            }
+        }
+        self.rooms[room][2] = best.0;
+        self.restore(&best.1);
+    }
+
+    /// Shrinks in large steps; failed attempts are disrupted and tried again.
+    fn explore(
+        &mut self,
+        room: usize,
+        best: &mut (f64, Vec<Pose>),
+        budget: &mut Budget,
+    ) -> bool {
+        let mut pool: Vec<(f64, Vec<Pose>)> = Vec::new();
+        let mut improved = false;
+        self.narrow(room, best, STEP);
+        while !budget.over && pool.len() < ATTEMPTS {
+            if self.narrower(room, best.0, budget) {
+                *best = (self.used(room), self.poses());
+                improved = true;
+                pool.clear();
+                self.narrow(room, best, STEP);
+                continue;
+            }
+            pool.push((self.total(), self.poses()));
+            pool.sort_by(|a, b| a.0.total_cmp(&b.0));
+            let pick = (self.random.normal().abs() * 0.25 * pool.len() as f64) as usize;
+            let poses = pool[pick.min(pool.len() - 1)].1.clone();
+            self.restore(&poses);
+            self.disrupt();
+        }
+        improved
+    }
+
+    /// Shrinks in small steps from the best layout.
+    fn squeeze(
+        &mut self,
+        room: usize,
+        best: &mut (f64, Vec<Pose>),
+        budget: &mut Budget,
+    ) -> bool {
+        let [mut step, last, factor] = SQUEEZE;
+        let mut improved = false;
+        while step > last && !budget.over {
+            self.narrow(room, best, step);
+            if self.narrower(room, best.0, budget) {
+                *best = (self.used(room), self.poses());
+                improved = true;
+            } else {
+                step *= factor;
+            }
+        }
+        improved
+    }
+
+    /// Separates; `true` if the room's parts now reach less far than `before`. A part that
+    /// is too large for the narrow room stays where it was, without any overlap.
+    fn narrower(&mut self, room: usize, before: f64, budget: &mut Budget) -> bool {
+        self.separate(budget) && self.used(room) < before
+    }
+
+    /// The best layout cut somewhere and pushed together.
+    fn narrow(&mut self, room: usize, best: &(f64, Vec<Pose>), share: f64) {
+        let left = self.rooms[room][0];
+        let by = (best.0 - left) * share;
+        self.rooms[room][2] = f64::INFINITY;
+        let cut = self.random.between(left, best.0);
+        let rooms: Vec<usize> = best.1.iter().map(|pose| self.room_at(pose.x)).collect();
+        self.rooms[room][2] = best.0 - by;
+        let pushed = best.1.iter().zip(rooms).map(|(&pose, at)| {
+            let moves = at == room && pose.x > cut;
+            Pose { x: if moves { (pose.x - by).max(left) } else { pose.x }, ..pose }
+        });
+        let pushed: Vec<Pose> = pushed.collect();
+        self.restore(&pushed);
+    }
+
+    /// Swaps two large parts of different shape.
+    pub(super) fn disrupt(&mut self) {
+        let mut order: Vec<usize> = (0..self.members.len()).collect();
+        let size = |part: usize| self.shapes[self.members[part].shape].size;
+        order.sort_by(|&a, &b| size(b).total_cmp(&size(a)).then(a.cmp(&b)));
+        let all: f64 = order.iter().map(|&part| size(part)).sum();
+        let mut sum = 0.0;
+        let large = order.iter().take_while(|&&part| {
+            sum += size(part);
+            sum - size(part) < 0.75 * all
+        });
+        let large = large.count().max(2).min(order.len());
+        if large < 2 {
+            return;
+        }
+        let a = order[self.random.below(large)];
+        let b = (0..20).map(|_| order[self.random.below(large)]);
+        let b: Vec<usize> = b.collect();
+        let differs = |&&b: &&usize| (size(a) - size(b)).abs() > 0.01 * size(a);
+        let Some(&b) = b.iter().find(differs).or(b.iter().find(|&&b| b != a)) else {
+            return;
+        };
+        let (pa, pb) = (self.members[a].pose, self.members[b].pose);
+        for (part, to) in [(a, pb), (b, pa)] {
+            let angle = self.members[part].pose.angle;
+            let pose = Pose { angle, ..to };
+            let inside = self.inside(&self.members[part].turned, pose);
+            if let Some(pose) = inside {
+                self.put(part, pose);
+            }
+        }
+    }
+}
