@@ -91,6 +91,10 @@ pub const BRACKET_WIDTH: f64 = 1.1;
 /// A vector that shrinks below this share of its length when made orthogonal is gone.
 pub const VANISHED: f64 = 1e-10;
 
+/// A column whose square shrinks below this share when made orthogonal by products loses
+/// too many digits; it is done column by column then.
+pub const NEARLY_PARALLEL: f64 = 1e-9;
+
 /// Contact forces that miss a unit load by more than this are no equilibrium.
 pub const FORCE_BALANCE: f64 = 1e-6;
 

@@ -1,6 +1,7 @@
 //! One front: gathering, elimination, and the update for the parent.
 
 use crate::rigidity::factor::{Entries, Mail, Singular};
+use crate::rigidity::panel::pack;
 use crate::rigidity::symbolic::{Supernode, Symbolic};
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::linalg::cholesky::llt::factor::{cholesky_in_place, cholesky_in_place_scratch};
@@ -15,12 +16,23 @@ const LARGE: f64 = 2e7;
 
 /// What one thread works with.
 pub(super) struct Work<'a> {
-    symbolic: &'a Symbolic,
+    pub(super) symbolic: &'a Symbolic,
     threads: usize,
     /// By place of a group, its first row in the present front.
     local: Vec<u32>,
     /// Buffers of updates that were taken in, to be used again.
     spare: Vec<Vec<f64>>,
+    /// The columns of the present front.
+    columns: Vec<f64>,
+}
+
+/// One side of a front: its own columns, or the update.
+struct Side<'a> {
+    values: &'a mut [f64],
+    /// Length of a column.
+    height: usize,
+    /// Rows of the front that stand above the first row.
+    above: usize,
 }
 
 impl<'a> Work<'a> {
@@ -30,11 +42,12 @@ impl<'a> Work<'a> {
             threads,
             local: vec![0; symbolic.place.len()],
             spare: Vec::new(),
+            columns: Vec::new(),
         }
     }
 
     /// Numbers the rows of a front.
-    pub(super) fn enter(&mut self, node: &Supernode) {
+    fn enter(&mut self, node: &Supernode) {
         let mut row = 0;
         let own = (node.first..node.end).map(|k| k as u32);
         for k in own.chain(node.rows.iter().copied()) {
@@ -43,54 +56,62 @@ impl<'a> Work<'a> {
         }
     }
 
-    pub(super) fn local(&self, group: usize) -> usize {
-        self.local[group] as usize
-    }
-
-    /// Eliminates a supernode; returns its columns and mails its update.
+    /// Eliminates a supernode; puts its packed columns on the shelf and mails its update.
     pub(super) fn eliminate(
         &mut self,
         s: usize,
         entries: &dyn Entries,
-        mail: &mut Mail,
-    ) -> Result<Vec<f64>, Singular> {
+        (shelf, mail): (&mut Vec<f64>, &mut Mail),
+    ) -> Result<(), Singular> {
         let symbolic = self.symbolic;
         let node = &symbolic.supernodes[s];
-        let (width, below) = (node.width, node.below);
-        let height = width + below;
-        let mut columns = vec![0.0; width * height];
-        let mut update = self.spare.pop().unwrap_or_default();
-        update.clear();
-        update.resize(below * below, 0.0);
+        let height = node.width + node.below;
         self.enter(node);
+        let mut columns = std::mem::take(&mut self.columns);
+        columns.clear();
+        columns.resize(node.width * height, 0.0);
         entries.entries(s, &mut |row, column, block| {
-            let (r, c) = (self.local(row), self.local(column));
+            let [r, c] = [row, column].map(|group| self.local[group] as usize);
             let size = symbolic.size(row);
             for (k, values) in block.chunks_exact(size).enumerate() {
-                if c < width {
-                    let at = (c + k) * height + r;
-                    add(&mut columns[at..at + size], values);
-                } else {
-                    let at = (c - width + k) * below + r - width;
-                    add(&mut update[at..at + size], values);
-                }
+                let at = (c + k) * height + r;
+                add(&mut columns[at..at + size], values);
             }
         });
-        for &child in &node.children {
-            let letter = mail.take(child);
-            self.take_in(
-                &symbolic.supernodes[child],
-                &letter,
-                (&mut columns, &mut update),
-            );
+        let letters: Vec<(&Supernode, Vec<f64>)> = node
+            .children
+            .iter()
+            .map(|&child| (&symbolic.supernodes[child], mail.take(child)))
+            .collect();
+        for (child, letter) in &letters {
+            let side = Side { values: &mut columns, height, above: 0 };
+            self.take_in((child, letter), node.width, side);
+        }
+        let mut update = self.buffer(node.below * node.below);
+        self.reduce(node, &mut columns, &mut update[..node.below * node.below])?;
+        for (child, letter) in letters {
+            let (height, above) = (node.below, node.width);
+            let side = Side { values: &mut update, height, above };
+            self.take_in((child, &letter), node.width, side);
             self.spare.push(letter);
         }
-        self.reduce(node, &mut columns, &mut update)?;
+        pack(&columns, node.width, shelf);
+        self.columns = columns;
         mail.put(s, update);
-        Ok(columns)
+        Ok(())
     }
 
-    /// Turns the columns of a front into the factor's and takes their share from the update.
+    /// Room for so many numbers or more, whatever they are.
+    fn buffer(&mut self, count: usize) -> Vec<f64> {
+        let spare = self.spare.iter().enumerate().filter(|(_, room)| room.len() >= count);
+        match spare.min_by_key(|(_, room)| room.len()).map(|(k, _)| k) {
+            Some(k) => self.spare.swap_remove(k),
+            None => vec![0.0; count.next_power_of_two()],
+        }
+    }
+
+    /// Turns the columns of a front into the factor's; `update` becomes what they take from
+    /// the rest.
     fn reduce(
         &self,
         node: &Supernode,
@@ -99,8 +120,8 @@ impl<'a> Work<'a> {
     ) -> Result<(), Singular> {
         let (width, below) = (node.width, node.below);
         let height = width + below;
-        let mut front = MatMut::from_column_major_slice_mut(columns, height, width);
-        let (mut top, mut bottom) = front.rb_mut().split_at_row_mut(width);
+        let front = MatMut::from_column_major_slice_mut(columns, height, width);
+        let (mut top, mut bottom) = front.split_at_row_mut(width);
         let scratch =
             cholesky_in_place_scratch::<f64>(width, Par::Seq, Default::default());
         cholesky_in_place(
@@ -115,7 +136,7 @@ impl<'a> Work<'a> {
             let update = MatMut::from_column_major_slice_mut(update, below, below);
             if node.work() < LARGE {
                 solve_below(top.rb(), bottom.rb_mut());
-                subtract_square(update, bottom.rb());
+                less_square(update, bottom.rb());
             } else {
                 self.eliminate_large(top.rb(), bottom.rb_mut(), update);
             }
@@ -123,34 +144,29 @@ impl<'a> Work<'a> {
         Ok(())
     }
 
-    /// Adds a child's update, whose lower triangle counts, to the front.
-    fn take_in(&self, child: &Supernode, letter: &[f64], into: (&mut [f64], &mut [f64])) {
-        let (columns, update) = into;
-        let symbolic = self.symbolic;
-        let parent_owner = child.parent.map(|p| &symbolic.supernodes[p]);
-        let Some(parent) = parent_owner else { return };
-        let (width, height) = (parent.width, parent.width + parent.below);
+    /// Adds that part of a child's update, of which the lower triangle counts, which
+    /// belongs to one side of the present front of `width` own rows.
+    fn take_in(&self, (child, letter): (&Supernode, &[f64]), width: usize, side: Side) {
         let runs = self.runs(child, width);
-        let mut column_of = 0;
+        let mut column = 0;
         for (index, &(local, size)) in runs.iter().enumerate() {
-            for c in local..local + size {
-                let source =
-                    &letter[column_of * child.below..(column_of + 1) * child.below];
-                let (target, top) = if c < width {
-                    (&mut columns[c * height..(c + 1) * height], 0)
-                } else {
-                    let c = c - width;
-                    (&mut update[c * parent.below..(c + 1) * parent.below], width)
-                };
-                let mut from: usize = runs[..index].iter().map(|run| run.1).sum();
-                for &(row, size) in &runs[index..] {
-                    add(
-                        &mut target[row - top..row - top + size],
-                        &source[from..from + size],
-                    );
+            if (local < width) != (side.above == 0) {
+                column += size;
+                continue;
+            }
+            for k in 0..size {
+                let source = &letter[column * child.below..(column + 1) * child.below];
+                let at = (local + k - side.above) * side.height;
+                let target = &mut side.values[at..at + side.height];
+                let (row, mut from) = (local + k - side.above, column);
+                add(&mut target[row..row + size - k], &source[from..from + size - k]);
+                from += size - k;
+                for &(row, size) in &runs[index + 1..] {
+                    let row = row - side.above;
+                    add(&mut target[row..row + size], &source[from..from + size]);
                     from += size;
                 }
-                column_of += 1;
+                column += 1;
             }
         }
     }
@@ -161,7 +177,7 @@ impl<'a> Work<'a> {
         let mut runs: Vec<(usize, usize)> = Vec::with_capacity(child.rows.len());
         for &row in &child.rows {
             let (local, size) =
-                (self.local(row as usize), self.symbolic.size(row as usize));
+                (self.local[row as usize] as usize, self.symbolic.size(row as usize));
             match runs.last_mut() {
                 Some(last) if last.0 + last.1 == local && local != width => {
                     last.1 += size;
@@ -195,17 +211,17 @@ impl<'a> Work<'a> {
         let half = second.nrows();
         self.both(
             || {
-                subtract_square(corner.rb_mut(), first);
-                let (mut a, mut b) = side.rb_mut().split_at_row_mut(half);
-                matmul(a.rb_mut(), Accum::Add, second, first.transpose(), -1.0, Par::Seq);
-                matmul(b.rb_mut(), Accum::Add, lower, first.transpose(), -1.0, Par::Seq);
+                less_square(corner.rb_mut(), first);
+                let (a, b) = side.rb_mut().split_at_row_mut(half);
+                less_product(a, second, first);
+                less_product(b, lower, first);
             },
             || {
                 let (left, right) = rest.rb_mut().split_at_col_mut(half);
-                let (mut a, mut b) = left.split_at_row_mut(half);
-                subtract_square(a.rb_mut(), second);
-                matmul(b.rb_mut(), Accum::Add, lower, second.transpose(), -1.0, Par::Seq);
-                subtract_square(right.split_at_row_mut(half).1, lower);
+                let (a, b) = left.split_at_row_mut(half);
+                less_square(a, second);
+                less_product(b, lower, second);
+                less_square(right.split_at_row_mut(half).1, lower);
             },
         );
     }
@@ -232,12 +248,12 @@ fn solve_below(top: MatRef<'_, f64>, bottom: MatMut<'_, f64>) {
     solve_lower_triangular_in_place(top, bottom.transpose_mut(), Par::Seq);
 }
 
-/// Takes `a · aᵀ` from the lower triangle of `from`.
-fn subtract_square(from: MatMut<'_, f64>, a: MatRef<'_, f64>) {
+/// The lower triangle of `into` becomes `-a · aᵀ`.
+fn less_square(into: MatMut<'_, f64>, a: MatRef<'_, f64>) {
     triangular::matmul(
-        from,
+        into,
         BlockStructure::TriangularLower,
-        Accum::Add,
+        Accum::Replace,
         a,
         BlockStructure::Rectangular,
         a.transpose(),
@@ -245,4 +261,9 @@ fn subtract_square(from: MatMut<'_, f64>, a: MatRef<'_, f64>) {
         -1.0,
         Par::Seq,
     );
+}
+
+/// `into` becomes `-a · bᵀ`.
+fn less_product(into: MatMut<'_, f64>, a: MatRef<'_, f64>, b: MatRef<'_, f64>) {
+    matmul(into, Accum::Replace, a, b.transpose(), -1.0, Par::Seq);
 }

@@ -1,12 +1,13 @@
 //! The paper's matrix `A` and its smallest singular values, dense and sparse.
 
 use crate::geometry::Vector3;
+use crate::rigidity::block::Block;
 use crate::rigidity::factor::{Factor, Singular};
 use crate::rigidity::lanczos::{self, Operator};
 use crate::rigidity::model::Model;
 use crate::rigidity::paper::{Pairing, free_rank, velocity};
 use crate::rigidity::system::System;
-use faer::{Mat, MatRef};
+use faer::Mat;
 
 /// `A`, row by row; unknowns are the motions of the bodies after the first.
 pub(super) struct Matrix<'a> {
@@ -104,16 +105,17 @@ impl Matrix<'_> {
         let factor = system.factor(None)?;
         let inverse = PinInverse { system: &system, factor: &factor };
         let vectors = lanczos::largest(&inverse, wanted);
-        let mut found: Vec<(f64, Vec<[f64; 6]>)> = (0..vectors.ncols())
+        let mut found: Vec<(f64, Vec<[f64; 6]>)> = (0..vectors.columns)
             .map(|k| {
-                let twists = self.twists(|i| vectors[(i, k)]);
+                let vector = vectors.column(k);
+                let twists = self.twists(|i| vector[i]);
                 let norm = |v: &[f64]| v.iter().map(|x| x * x).sum::<f64>().sqrt();
                 (norm(&self.apply(&twists)) / norm(twists.as_flattened()), twists)
             })
             .collect();
         found.sort_by(|a, b| a.0.total_cmp(&b.0));
         let top = lanczos::largest(&Square(self), 1);
-        let top = self.apply(&self.twists(|i| top[(i, 0)]));
+        let top = self.apply(&self.twists(|i| top.values[i]));
         let largest = top.iter().map(|x| x * x).sum::<f64>().sqrt();
         let (sigma, twists) = found.into_iter().unzip();
         Ok((sigma, twists, largest))
@@ -128,16 +130,17 @@ impl Operator for Square<'_> {
         self.0.size()
     }
 
-    fn apply(&self, block: MatRef<'_, f64>) -> Mat<f64> {
+    fn apply(&self, block: &mut Block) {
         let image = |k: usize| {
-            let twists = self.0.twists(|i| block[(i, k)]);
+            let column = block.column(k);
+            let twists = self.0.twists(|i| column[i]);
             self.0.transposed(&self.0.apply(&twists))
         };
-        let images: Vec<Vec<f64>> = (0..block.ncols()).map(image).collect();
-        Mat::from_fn(block.nrows(), block.ncols(), |i, k| images[k][i])
+        let images: Vec<Vec<f64>> = (0..block.columns).map(image).collect();
+        *block = Block::from_columns(block.rows, &images);
     }
 
-    fn project(&self, _block: &mut Mat<f64>) {}
+    fn project(&self, _block: &mut Block) {}
 }
 
 /// The inverse of `AᵀA` for the pairing `pin`: with `J X = Q z` and `X = T z` it is
@@ -163,15 +166,15 @@ impl Operator for PinInverse<'_> {
         6 * (self.system.motions.len() - 1)
     }
 
-    fn apply(&self, block: MatRef<'_, f64>) -> Mat<f64> {
-        let (system, count) = (self.system, block.ncols());
+    fn apply(&self, block: &mut Block) {
+        let (system, count) = (self.system, block.columns);
         let bodies = 1..system.motions.len();
         let mut right = vec![0.0; system.unknowns() * count];
         let mut shares = vec![vec![[0.0; 6]; count]; system.motions.len()];
         for k in 0..count {
             let mut sleeves = vec![0.0; 3 * system.sleeve[1]];
             for body in bodies.clone() {
-                let z = self.shares(body, |i| block[(i, k)]);
+                let z = self.shares(body, |i| block.values[i * count + k]);
                 let motions = &system.motions[body];
                 let from = sleeves.len();
                 sleeves.resize(from + motions.rows, 0.0);
@@ -187,7 +190,7 @@ impl Operator for PinInverse<'_> {
             }
         }
         self.factor.solve(&mut right, count);
-        let mut image = Mat::zeros(block.nrows(), count);
+        let mut image = Block::zeros(block.rows, count);
         let mut values = Vec::new();
         for k in 0..count {
             let y: Vec<f64> = right.chunks_exact(count).map(|row| row[k]).collect();
@@ -198,13 +201,13 @@ impl Operator for PinInverse<'_> {
                 for (j, twist) in motions.twists.iter().enumerate() {
                     let z = shares[body][k][j] + back[j];
                     for (i, t) in twist.iter().enumerate() {
-                        image[(6 * body - 6 + i, k)] += t * z;
+                        image.values[(6 * body - 6 + i) * count + k] += t * z;
                     }
                 }
             }
         }
-        image
+        *block = image;
     }
 
-    fn project(&self, _block: &mut Mat<f64>) {}
+    fn project(&self, _block: &mut Block) {}
 }

@@ -4,15 +4,15 @@
 //! restriction to a subspace refined by residuals, never eigenvalues of `AᵀA`. Bodies that
 //! spin unseen about their only axis are counted.
 
+use crate::rigidity::block::{self, Block, orthonormal};
 use crate::rigidity::factor::{Factor, Singular};
 use crate::rigidity::lanczos::{self, Operator};
+use crate::rigidity::panel::ABREAST;
 use crate::rigidity::spectrum::{self, Inverse, Modes};
 use crate::rigidity::system::System;
 use crate::tolerance::{NO_RESISTANCE, SUSPECT_RESISTANCE};
 use faer::Mat;
 
-/// Vectors looked at together when a null space is exhausted.
-const BLOCK: usize = 8;
 /// Up to this many unknowns one dense decomposition is quicker.
 const DENSE: usize = 480;
 
@@ -56,64 +56,61 @@ pub(super) fn mobility(system: &System, modes: &Modes) -> Result<Mobility, Singu
 fn null_space(system: &System, factor: &Factor) -> Vec<Vec<f64>> {
     let inverse = Inverse::new(system, factor);
     let size = inverse.size();
-    let mut found: Vec<Mat<f64>> = Vec::new();
-    for seed in 0..(size / BLOCK) as u64 + 1 {
-        let mut block = lanczos::scattered(seed, size, BLOCK);
+    let mut found: Vec<Block> = Vec::new();
+    let fresh = |block: &mut Block, found: &[Block]| {
+        inverse.project(block);
+        for _ in 0..2 {
+            block::clear(found, block);
+        }
+        orthonormal(block);
+    };
+    for seed in 0..(size / ABREAST) as u64 + 1 {
+        let mut block = lanczos::scattered(seed, size, ABREAST);
         inverse.project(&mut block);
         for _ in 0..2 {
-            block = inverse.apply(block.as_ref());
-            inverse.project(&mut block);
-            block = lanczos::orthonormal(&found, &block).0;
+            inverse.apply(&mut block);
+            fresh(&mut block, &found);
         }
         for _ in 0..2 {
-            block = refined(&inverse, &block);
-            inverse.project(&mut block);
-            block = lanczos::orthonormal(&found, &block).0;
+            refine(&inverse, &mut block);
+            fresh(&mut block, &found);
         }
         let zero = unresisted(&inverse, &block);
-        let count = zero.ncols();
+        let count = zero.columns;
         found.push(zero);
-        if count < BLOCK {
+        if count < ABREAST {
             break;
         }
     }
-    let roots = &inverse.roots;
-    let unscaled = |block: &Mat<f64>, k: usize| {
-        let entry =
-            |(i, r): (usize, &f64)| if *r > 0.0 { block[(i, k)] / r } else { 0.0 };
-        roots.iter().enumerate().map(entry).collect()
+    let motions = |block: &Block| -> Vec<Vec<f64>> {
+        (0..block.columns).map(|k| inverse.motion(block, k)).collect()
     };
-    found
-        .iter()
-        .flat_map(|block| (0..block.ncols()).map(move |k| unscaled(block, k)))
-        .collect()
+    found.iter().flat_map(motions).collect()
 }
 
 /// Takes from each column what its residual says it has too much of: `x - K⁻¹ Bᵀ (B x)`,
 /// with the residual `B x` from orthogonal projectors.
-fn refined(inverse: &Inverse, block: &Mat<f64>) -> Mat<f64> {
+fn refine(inverse: &Inverse, block: &mut Block) {
     let residual = |k: usize| {
-        let off = inverse.deviations(block, k);
-        inverse.system.scatter(&off)
+        let off = inverse.system.deviations(&inverse.motion(block, k));
+        let residual = inverse.system.scatter(&off).into_iter().zip(&inverse.roots);
+        residual.map(|(x, root)| if *root > 0.0 { x / root } else { 0.0 }).collect()
     };
-    let residuals: Vec<Vec<f64>> = (0..block.ncols()).map(residual).collect();
-    let roots = &inverse.roots;
-    let scaled = Mat::from_fn(block.nrows(), block.ncols(), |i, k| {
-        if roots[i] > 0.0 { residuals[k][i] / roots[i] } else { 0.0 }
-    });
-    block - inverse.apply(scaled.as_ref())
+    let residuals: Vec<Vec<f64>> = (0..block.columns).map(residual).collect();
+    let mut excess = Block::from_columns(block.rows, &residuals);
+    inverse.apply(&mut excess);
+    block.values.iter_mut().zip(&excess.values).for_each(|(x, e)| *x -= e);
 }
 
 /// Combinations of the columns that meet no resistance.
-fn unresisted(inverse: &Inverse, block: &Mat<f64>) -> Mat<f64> {
-    let columns: Vec<Vec<f64>> =
-        (0..block.ncols()).map(|k| inverse.deviations(block, k)).collect();
+fn unresisted(inverse: &Inverse, block: &Block) -> Block {
+    let off = |k: usize| inverse.system.deviations(&inverse.motion(block, k));
+    let columns: Vec<Vec<f64>> = (0..block.columns).map(off).collect();
     let rows = columns.first().map_or(0, Vec::len);
     let off = Mat::from_fn(rows, columns.len(), |i, k| columns[k][i]);
-    let Ok(svd) = off.thin_svd() else { return Mat::zeros(block.nrows(), 0) };
+    let Ok(svd) = off.thin_svd() else { return Block::zeros(block.rows, 0) };
     let count = columns.len();
     let zero: Vec<usize> = (0..count).filter(|&k| svd.S()[k] <= NO_RESISTANCE).collect();
     let v = svd.V();
-    let chosen = Mat::from_fn(count, zero.len(), |i, k| v[(i, zero[k])]);
-    block * chosen
+    block.times(Mat::from_fn(count, zero.len(), |i, k| v[(i, zero[k])]).as_ref())
 }

@@ -11,6 +11,7 @@
 //! Stability; `docs/rigidity.md`.
 
 mod amplify;
+mod block;
 mod factor;
 mod finding;
 mod front;
@@ -21,9 +22,12 @@ mod matrix;
 mod mobility;
 mod model;
 mod motions;
+mod panel;
 mod paper;
 mod picture;
 mod remedy;
+mod side;
+mod solve;
 mod spectrum;
 mod stiffness;
 mod sway;

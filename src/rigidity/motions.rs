@@ -18,13 +18,13 @@ pub(super) struct Motions {
     /// Column by column, `rows * rank` numbers.
     pub(super) columns: Vec<f64>,
     /// For each column the motion `(C, C̄)` that makes it: `V(q) = C × q + C̄`.
-    pub(super) twists: Vec<[f64; 6]>,
+    pub(super) twists: [[f64; 6]; 6],
 }
 
 impl Motions {
     /// No motion: the body is held.
     pub(super) fn none(rows: usize) -> Self {
-        Self { rows, rank: 0, columns: Vec::new(), twists: Vec::new() }
+        Self { rows, rank: 0, columns: Vec::new(), twists: [[0.0; 6]; 6] }
     }
 
     /// The motions of a body with these points, in mm; `roots` are roots of weights.
@@ -40,59 +40,70 @@ impl Motions {
             points.iter().zip(roots).map(|(p, r)| r * r * off(p).norm_squared()).sum();
         let radius = (spread / total).sqrt();
         let mut made = Self::none(3 * points.len());
+        made.columns.reserve_exact(6 * made.rows);
         for k in 0..3 {
-            let mut twist = [0.0; 6];
-            twist[3 + k] = 1.0 / total.sqrt();
-            let way = Vector3::ith(k, twist[3 + k]);
+            made.twists[k][3 + k] = 1.0 / total.sqrt();
+            let way = Vector3::ith(k, made.twists[k][3 + k]);
             made.columns.extend(roots.iter().flat_map(|r| <[f64; 3]>::from(way * *r)));
-            made.twists.push(twist);
         }
         made.rank = 3;
         if radius > 0.0 {
-            let turns = (0..3).map(|k| {
+            for k in 0..3 {
                 let turn = Vector3::ith(k, 1.0 / (radius * total.sqrt()));
                 let shift = centre.cross(&turn);
+                made.twists[3 + k] = [turn.x, turn.y, turn.z, shift.x, shift.y, shift.z];
                 let moved = points.iter().zip(roots);
-                let column =
-                    moved.flat_map(|(p, r)| <[f64; 3]>::from(turn.cross(&off(p)) * *r));
-                let twist = [turn.x, turn.y, turn.z, shift.x, shift.y, shift.z];
-                (column.collect(), twist)
-            });
-            made.add_turns(turns.collect());
+                made.columns.extend(
+                    moved.flat_map(|(p, r)| <[f64; 3]>::from(turn.cross(&off(p)) * *r)),
+                );
+            }
+            made.choose_turns();
         }
         made
     }
 
-    /// Adds what is new in these columns, longest rest first.
-    fn add_turns(&mut self, mut turns: Vec<(Vec<f64>, [f64; 6])>) {
-        while !turns.is_empty() {
-            for (column, twist) in &mut turns {
-                self.clear(column, twist);
-                self.clear(column, twist);
+    /// Makes what is new in the three last columns orthonormal, longest rest first; what is
+    /// not new is dropped.
+    fn choose_turns(&mut self) {
+        for k in 3..6 {
+            for turn in k..6 {
+                self.clear(turn);
+                self.clear(turn);
             }
-            let lengths: Vec<f64> = turns.iter().map(|(c, _)| norm(c)).collect();
-            let longest = (0..turns.len())
-                .max_by(|&a, &b| lengths[a].total_cmp(&lengths[b]))
-                .unwrap_or(0);
-            let (mut column, mut twist) = turns.swap_remove(longest);
-            if lengths[longest] <= NO_ROTATION {
-                return;
-            }
+            let lengths: [f64; 6] =
+                std::array::from_fn(|j| if j < k { 0.0 } else { norm(self.column(j)) });
+            let longest = (k..6).max_by(|&a, &b| lengths[a].total_cmp(&lengths[b]));
+            let Some(longest) = longest.filter(|&j| lengths[j] > NO_ROTATION) else {
+                break;
+            };
+            self.swap(k, longest);
             let scale = 1.0 / lengths[longest];
-            column.iter_mut().chain(&mut twist).for_each(|x| *x *= scale);
-            self.columns.append(&mut column);
-            self.twists.push(twist);
+            let column = &mut self.columns[k * self.rows..(k + 1) * self.rows];
+            column.iter_mut().chain(&mut self.twists[k]).for_each(|x| *x *= scale);
             self.rank += 1;
+        }
+        self.columns.truncate(self.rank * self.rows);
+    }
+
+    fn swap(&mut self, a: usize, b: usize) {
+        self.twists.swap(a, b);
+        if a < b {
+            let (before, after) = self.columns.split_at_mut(b * self.rows);
+            before[a * self.rows..(a + 1) * self.rows]
+                .swap_with_slice(&mut after[..self.rows]);
         }
     }
 
-    /// Takes from a column what the basis has already.
-    fn clear(&self, column: &mut [f64], twist: &mut [f64; 6]) {
+    /// Takes from a column what the basis before has already.
+    fn clear(&mut self, turn: usize) {
+        let (before, after) = self.columns.split_at_mut(turn * self.rows);
+        let column = &mut after[..self.rows];
         for k in 0..self.rank {
-            let basis = self.column(k);
+            let basis = &before[k * self.rows..(k + 1) * self.rows];
             let share: f64 = basis.iter().zip(&*column).map(|(a, b)| a * b).sum();
             column.iter_mut().zip(basis).for_each(|(x, b)| *x -= share * b);
-            twist.iter_mut().zip(&self.twists[k]).for_each(|(x, t)| *x -= share * t);
+            let twist = self.twists[k];
+            self.twists[turn].iter_mut().zip(twist).for_each(|(x, t)| *x -= share * t);
         }
     }
 

@@ -4,10 +4,12 @@
 //! rms motion of the pins, free of units and origin (notes §1.3, §3.2). All figures come
 //! from residuals `(I - QQᵀ) y`, never from `yᵀ K y`, which loses half the digits.
 
+use crate::rigidity::block::{self, Block};
 use crate::rigidity::factor::{Factor, Singular};
 use crate::rigidity::lanczos::{self, Operator};
+use crate::rigidity::side::side_by_side;
 use crate::rigidity::system::System;
-use faer::{Mat, MatRef};
+use faer::Mat;
 
 /// Up to this many unknowns everything is done by a dense singular value decomposition.
 const DENSE: usize = 240;
@@ -46,10 +48,7 @@ pub(super) fn is_dense(system: &System) -> bool {
 pub(super) fn by_inverse(system: &System, factor: &Factor, wanted: usize) -> Modes {
     let inverse = Inverse::new(system, factor);
     let vectors = lanczos::largest(&inverse, wanted);
-    let motions = (0..vectors.ncols()).map(|k| {
-        let column = inverse.roots.iter().enumerate();
-        column.map(|(i, r)| if *r > 0.0 { vectors[(i, k)] / r } else { 0.0 }).collect()
-    });
+    let motions = (0..vectors.columns).map(|k| inverse.motion(&vectors, k));
     measured(system, motions.collect())
 }
 
@@ -57,12 +56,12 @@ pub(super) fn by_inverse(system: &System, factor: &Factor, wanted: usize) -> Mod
 pub(super) fn measured(system: &System, motions: Vec<Vec<f64>>) -> Modes {
     let counts = system.counts();
     let resistance = |y: &Vec<f64>| {
-        let off: f64 = system.deviations(y).iter().map(|d| d * d).sum();
         let moved: f64 = y.iter().zip(&counts).map(|(y, n)| n * y * y).sum();
-        (off / moved).sqrt()
+        (system.resistance(y) / moved).sqrt()
     };
-    let mut both: Vec<(f64, Vec<f64>)> =
-        motions.into_iter().map(|y| (resistance(&y), y)).collect();
+    let of = |(): &mut (), k: usize| resistance(&motions[k]);
+    let sigma = side_by_side(system.threads, motions.len(), || (), of);
+    let mut both: Vec<(f64, Vec<f64>)> = sigma.into_iter().zip(motions).collect();
     both.sort_by(|a, b| a.0.total_cmp(&b.0));
     let (sigma, motions) = both.into_iter().unzip();
     Modes { sigma, motions }
@@ -75,7 +74,7 @@ pub(super) struct Inverse<'a> {
     /// Roots of `D`.
     pub(super) roots: Vec<f64>,
     /// Orthonormal `D^½ R`, or nothing.
-    rigid: Vec<Mat<f64>>,
+    rigid: Vec<Block>,
 }
 
 impl<'a> Inverse<'a> {
@@ -83,23 +82,33 @@ impl<'a> Inverse<'a> {
         let roots: Vec<f64> = system.counts().into_iter().map(f64::sqrt).collect();
         let mut rigid = Vec::new();
         if system.floats {
-            let motions = system.rigid();
-            let scaled =
-                Mat::from_fn(roots.len(), motions.len(), |i, k| motions[k][i] * roots[i]);
-            rigid.push(lanczos::orthonormal(&[], &scaled).0);
+            rigid.push(scaled_rigid(system, &roots));
         }
         Self { system, factor, roots, rigid }
     }
 
-    /// Deviations of the sleeves in the motion of a column.
-    pub(super) fn deviations(&self, block: &Mat<f64>, k: usize) -> Vec<f64> {
-        let y: Vec<f64> = (0..block.nrows())
-            .map(
-                |i| if self.roots[i] > 0.0 { block[(i, k)] / self.roots[i] } else { 0.0 },
-            )
-            .collect();
-        self.system.deviations(&y)
+    /// The motion that a column stands for.
+    pub(super) fn motion(&self, block: &Block, k: usize) -> Vec<f64> {
+        let scaled = block.column(k).into_iter().zip(&self.roots);
+        scaled.map(|(x, root)| if *root > 0.0 { x / root } else { 0.0 }).collect()
     }
+
+    /// Multiplies each row with its root.
+    fn scale(&self, block: &mut Block) {
+        for (row, root) in block.rows_mut().zip(&self.roots) {
+            row.iter_mut().for_each(|x| *x *= root);
+        }
+    }
+}
+
+/// Orthonormal `D^½ R`.
+fn scaled_rigid(system: &System, roots: &[f64]) -> Block {
+    let mut rigid = Block::from_columns(roots.len(), &system.rigid());
+    for (row, root) in rigid.rows_mut().zip(roots) {
+        row.iter_mut().for_each(|x| *x *= root);
+    }
+    block::orthonormal(&mut rigid);
+    rigid
 }
 
 impl Operator for Inverse<'_> {
@@ -107,29 +116,22 @@ impl Operator for Inverse<'_> {
         self.system.unknowns()
     }
 
-    fn apply(&self, block: MatRef<'_, f64>) -> Mat<f64> {
-        let count = block.ncols();
-        if count == 0 {
-            return Mat::zeros(block.nrows(), 0);
+    fn apply(&self, block: &mut Block) {
+        if block.columns > 0 {
+            self.scale(block);
+            self.factor.solve(&mut block.values, block.columns);
+            self.scale(block);
         }
-        let mut x = vec![0.0; block.nrows() * count];
-        for (i, (row, root)) in x.chunks_exact_mut(count).zip(&self.roots).enumerate() {
-            row.iter_mut().enumerate().for_each(|(k, x)| *x = block[(i, k)] * root);
-        }
-        self.factor.solve(&mut x, count);
-        Mat::from_fn(block.nrows(), count, |i, k| x[i * count + k] * self.roots[i])
     }
 
-    fn project(&self, block: &mut Mat<f64>) {
+    fn project(&self, block: &mut Block) {
         // Unknowns that are a body's own are no part of the motion.
-        for k in 0..block.ncols() {
-            for (i, root) in self.roots.iter().enumerate() {
-                if *root <= 0.0 {
-                    block[(i, k)] = 0.0;
-                }
+        for (row, root) in block.rows_mut().zip(&self.roots) {
+            if *root <= 0.0 {
+                row.fill(0.0);
             }
         }
-        lanczos::clear(&self.rigid, block);
+        block::clear(&self.rigid, block);
     }
 }
 
@@ -138,15 +140,18 @@ impl Operator for Inverse<'_> {
 pub(super) fn dense(system: &System, wanted: usize) -> Modes {
     let roots: Vec<f64> = system.counts().into_iter().map(f64::sqrt).collect();
     let n = roots.len();
-    let rigid = if system.floats { system.rigid() } else { Vec::new() };
-    let rigid_scaled = Mat::from_fn(n, rigid.len(), |i, k| rigid[k][i] * roots[i]);
-    let rigid = lanczos::orthonormal(&[], &rigid_scaled).0;
+    let rigid =
+        if system.floats { scaled_rigid(system, &roots) } else { Block::zeros(n, 0) };
     let unknowns: Vec<usize> = (0..n).filter(|&k| roots[k] > 0.0).collect();
     let column = |&k: &usize| {
         let mut y = vec![0.0; n];
         y[k] = 1.0 / roots[k];
         let mut column = system.deviations(&y);
-        column.extend((0..rigid.ncols()).map(|j| 2.0 * rigid[(k, j)]));
+        column.extend(
+            rigid.values[k * rigid.columns..(k + 1) * rigid.columns]
+                .iter()
+                .map(|x| 2.0 * x),
+        );
         column
     };
     let columns: Vec<Vec<f64>> = unknowns.iter().map(column).collect();
@@ -156,7 +161,7 @@ pub(super) fn dense(system: &System, wanted: usize) -> Modes {
         return Modes { sigma: Vec::new(), motions: Vec::new() };
     };
     let all = columns.len().min(rows);
-    let motions = (0..wanted.min(all.saturating_sub(rigid.ncols()))).map(|k| {
+    let motions = (0..wanted.min(all.saturating_sub(rigid.columns))).map(|k| {
         let mut y = vec![0.0; n];
         for (row, &at) in unknowns.iter().enumerate() {
             y[at] = svd.V()[(row, all - 1 - k)] / roots[at];

@@ -2,7 +2,8 @@
 
 use crate::rigidity::factor::Entries;
 use crate::rigidity::motions::Motions;
-use crate::rigidity::system::{System, WHOLE, in_parts};
+use crate::rigidity::side::in_parts;
+use crate::rigidity::system::{Job, Span, System};
 use crate::tolerance::SHIFT;
 use std::ops::Range;
 
@@ -76,90 +77,46 @@ impl<'a> Stiffness<'a> {
         &all[body]
     }
 
-    /// The knots of a body that are free: place of the group, row in the body, size.
-    fn free(&self, body: usize) -> Vec<(usize, usize, usize)> {
-        let system = self.system;
-        let mut row = 0;
-        let mut free = Vec::with_capacity(3);
-        for &knot in &system.model.touches[body] {
-            let size = 3 * system.model.knots[knot].points.len();
-            if let Some(group) = system.knot_group[knot] {
-                free.push((system.symbolic.place[group as usize], row, size));
-            }
-            row += size;
-        }
-        free
-    }
-
-    fn add_body(&self, body: usize, add: &mut dyn FnMut(usize, usize, &[f64])) {
+    /// The block of a body between two of its knots: `S (I - Q Qᵀ) S`.
+    fn block(&self, body: usize, (row, column): (Span, Span), block: &mut [f64]) {
         let motions = self.motions(body);
-        let first = self.system.sleeve[body];
-        let root = |row: usize| self.root(first + row / 3);
-        let free = self.free(body);
-        let mut block = [0.0; 36];
-        for &(row_place, row, rows) in &free {
-            for &(column_place, column, columns) in &free {
-                if row_place < column_place {
-                    continue;
+        block.fill(0.0);
+        for k in 0..motions.rank {
+            let motion = motions.column(k);
+            let down = &motion[row.row..row.row + row.size];
+            let across = &motion[column.row..column.row + column.size];
+            for (values, share) in block.chunks_exact_mut(row.size).zip(across) {
+                values.iter_mut().zip(down).for_each(|(x, m)| *x -= m * share);
+            }
+        }
+        if row.row == column.row {
+            block.iter_mut().step_by(row.size + 1).for_each(|x| *x += 1.0);
+        }
+        if self.weighted.is_some() {
+            let root = |row: usize| self.root(self.system.sleeve[body] + row / 3);
+            for (c, values) in block.chunks_exact_mut(row.size).enumerate() {
+                let across = root(column.row + c);
+                for (r, x) in values.iter_mut().enumerate() {
+                    *x *= across * root(row.row + r);
                 }
-                let block = &mut block[..rows * columns];
-                block.fill(0.0);
-                for k in 0..motions.rank {
-                    let motion = motions.column(k);
-                    for (c, values) in block.chunks_exact_mut(rows).enumerate() {
-                        let share = motion[column + c];
-                        let motion = &motion[row..row + rows];
-                        values.iter_mut().zip(motion).for_each(|(x, m)| *x -= m * share);
-                    }
-                }
-                for (c, values) in block.chunks_exact_mut(rows).enumerate() {
-                    if row == column {
-                        values[c] += 1.0;
-                    }
-                    let across = root(column + c);
-                    for (r, x) in values.iter_mut().enumerate() {
-                        *x *= across * root(row + r);
-                    }
-                }
-                add(row_place, column_place, block);
             }
         }
     }
 
-    /// The block between a knot and a body that keeps its motion: `-S Q`.
-    fn add_link(
-        &self,
-        (body, touch): (usize, usize),
-        add: &mut dyn FnMut(usize, usize, &[f64]),
-    ) {
-        let system = self.system;
-        let knots = &system.model.touches[body];
-        let (Some(own), Some(knot)) =
-            (system.body_group[body], system.knot_group[knots[touch]])
-        else {
-            return;
-        };
-        let [own, knot] = [own, knot].map(|group| system.symbolic.place[group as usize]);
-        let points = |k: &usize| 3 * system.model.knots[*k].points.len();
-        let row: usize = knots[..touch].iter().map(points).sum();
-        let rows = points(&knots[touch]);
+    /// The block between a knot and a body that keeps its motion, `-S Q`; transposed if the
+    /// knot is eliminated first.
+    fn link(&self, body: usize, (knot, own): (Span, usize), block: &mut [f64]) {
         let motions = self.motions(body);
         let entry = |r: usize, k: usize| {
-            let root = self.root(system.sleeve[body] + (row + r) / 3);
-            -root * motions.column(k)[row + r]
+            let root = self.root(self.system.sleeve[body] + (knot.row + r) / 3);
+            -root * motions.column(k)[knot.row + r]
         };
-        let mut block = [0.0; 36];
-        let block = &mut block[..rows * motions.rank];
-        if knot > own {
-            for (at, x) in block.iter_mut().enumerate() {
-                *x = entry(at % rows, at / rows);
-            }
-            add(knot, own, block);
-        } else {
-            for (at, x) in block.iter_mut().enumerate() {
-                *x = entry(at / motions.rank, at % motions.rank);
-            }
-            add(own, knot, block);
+        for (at, x) in block.iter_mut().enumerate() {
+            *x = if knot.place > own {
+                entry(at % knot.size, at / knot.size)
+            } else {
+                entry(at / motions.rank, at % motions.rank)
+            };
         }
     }
 }
@@ -168,18 +125,27 @@ impl Entries for Stiffness<'_> {
     fn entries(&self, supernode: usize, add: &mut dyn FnMut(usize, usize, &[f64])) {
         let symbolic = &self.system.symbolic;
         let node = &symbolic.supernodes[supernode];
+        let mut block = [0.0; 36];
         for place in node.first..node.end {
             let size = symbolic.size(place);
-            let mut block = vec![0.0; size * size];
-            for k in 0..size {
-                block[k * size + k] = self.diagonal[symbolic.start[place] + k];
-            }
-            add(place, place, &block);
+            let block = &mut block[..size * size];
+            block.fill(0.0);
+            let diagonal = &self.diagonal[symbolic.start[place]..];
+            block.iter_mut().step_by(size + 1).zip(diagonal).for_each(|(x, d)| *x = *d);
+            add(place, place, block);
         }
-        for &(body, touch) in &self.system.jobs[supernode] {
-            match touch {
-                WHOLE => self.add_body(body as usize, add),
-                touch => self.add_link((body as usize, touch as usize), add),
+        for &job in &self.system.jobs[supernode] {
+            match job {
+                Job::Block { body, row, column } => {
+                    let block = &mut block[..row.size * column.size];
+                    self.block(body, (row, column), block);
+                    add(row.place, column.place, block);
+                }
+                Job::Link { body, knot, own } => {
+                    let block = &mut block[..knot.size * self.motions(body).rank];
+                    self.link(body, (knot, own), block);
+                    add(knot.place.max(own), knot.place.min(own), block);
+                }
             }
         }
     }

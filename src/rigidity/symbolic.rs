@@ -4,7 +4,9 @@
 //! eliminated together; the graph is then six times smaller than the matrix. Ordering by
 //! approximate minimum degree (`feral-amd`), then supernodes with relaxed merging.
 
+use crate::rigidity::panel::packed;
 use feral_amd::{CscPattern, amd_order};
+use std::ops::Range;
 
 /// Consecutive groups that are eliminated as one dense block.
 #[derive(Debug, Clone, PartialEq)]
@@ -28,6 +30,11 @@ pub(super) struct Supernode {
 }
 
 impl Supernode {
+    /// How many numbers its columns take in the factor.
+    pub(super) fn room(&self) -> usize {
+        packed(self.width, self.width + self.below)
+    }
+
     /// Work of its elimination, about.
     pub(super) fn work(&self) -> f64 {
         self.width as f64 * ((self.width + self.below) as f64).powi(2)
@@ -83,9 +90,14 @@ impl Symbolic {
         self.start[self.start.len() - 1]
     }
 
-    /// Unknowns of the group at a place.
+    /// How many unknowns the group at a place has.
     pub(super) fn size(&self, place: usize) -> usize {
         self.start[place + 1] - self.start[place]
+    }
+
+    /// Unknowns of the group at a place.
+    pub(super) fn rows(&self, place: usize) -> Range<usize> {
+        self.start[place]..self.start[place + 1]
     }
 
     /// Supernodes whose subtrees can be worked on side by side, the largest work first.
@@ -103,7 +115,7 @@ impl Symbolic {
         loop {
             branches.sort_by(|&a, &b| work[b].total_cmp(&work[a]).then(a.cmp(&b)));
             let split = branches.iter().position(|&s| {
-                work[s] > total / 24.0 && !self.supernodes[s].children.is_empty()
+                work[s] > total / 12.0 && !self.supernodes[s].children.is_empty()
             });
             let Some(split) = split else { return branches };
             let s = branches.swap_remove(split);
@@ -272,9 +284,10 @@ fn merge_last(merged: &mut Vec<(Supernode, usize)>) {
         let width = child.width + parent.width;
         let share = zeros as f64 / (width * (width + parent.below)) as f64;
         let allowed = match width {
-            0..=30 => 0.6,
-            31..=96 => 0.2,
-            _ => 0.06,
+            0..=18 => 0.4,
+            19..=30 => 0.2,
+            31..=96 => 0.1,
+            _ => 0.03,
         };
         if !linked || share > allowed {
             return;

@@ -10,9 +10,9 @@ use crate::geometry::Point3;
 use crate::rigidity::factor::{Factor, Singular};
 use crate::rigidity::model::Model;
 use crate::rigidity::motions::Motions;
+use crate::rigidity::side::in_parts;
 use crate::rigidity::stiffness::Stiffness;
 use crate::rigidity::symbolic::Symbolic;
-use std::ops::Range;
 
 /// Bodies with more rows than this keep their motion as unknowns.
 const MOST_ROWS: usize = 18;
@@ -33,9 +33,8 @@ pub(super) struct System<'a> {
     pub(super) body_group: Vec<Option<u32>>,
     /// The fixed part of the factorisation.
     pub(super) symbolic: Symbolic,
-    /// By supernode, bodies to add there; with the place of one of its knots for bodies
-    /// that keep their motion.
-    pub(super) jobs: Vec<Vec<(u32, u32)>>,
+    /// By supernode, what bodies add there.
+    pub(super) jobs: Vec<Vec<Job>>,
     /// By body, the first of its sleeves (one per knot and point); one more at the end.
     pub(super) sleeve: Vec<usize>,
     /// Whether the six rigid motions of the whole are free.
@@ -43,7 +42,25 @@ pub(super) struct System<'a> {
     pub(super) threads: usize,
 }
 
-pub(super) const WHOLE: u32 = u32::MAX;
+/// A free knot of a body.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Span {
+    /// Place of its group.
+    pub(super) place: usize,
+    /// Its first row in the body.
+    pub(super) row: usize,
+    /// How many rows it has.
+    pub(super) size: usize,
+}
+
+/// A block that a body adds to the matrix.
+#[derive(Debug, Clone, Copy)]
+pub(super) enum Job {
+    /// Between two of its knots, the row's place not before the column's.
+    Block { body: usize, row: Span, column: Span },
+    /// Between one of its knots and its own motion, at the place `own`.
+    Link { body: usize, knot: Span, own: usize },
+}
 
 impl<'a> System<'a> {
     /// Sets the unknowns of a model up; `fixed` is a body to hold beside its held knots.
@@ -89,23 +106,33 @@ impl<'a> System<'a> {
         system
     }
 
-    fn jobs(&self) -> Vec<Vec<(u32, u32)>> {
+    /// Each block goes to the supernode that eliminates the first of its two groups.
+    fn jobs(&self) -> Vec<Vec<Job>> {
         let mut jobs = vec![Vec::new(); self.symbolic.supernodes.len()];
         let place = |group: u32| self.symbolic.place[group as usize];
-        let owner = |place: usize| self.symbolic.owner[place] as usize;
+        let mut give = |job: Job, first: usize| {
+            jobs[self.symbolic.owner[first] as usize].push(job);
+        };
         for body in 0..self.model.bodies.len() {
-            let knots = self.model.touches[body].iter().enumerate();
-            let free = knots.filter_map(|(t, &k)| Some((t, place(self.knot_group[k]?))));
-            match self.body_group[body].map(place) {
-                Some(own) => {
-                    for (t, knot) in free {
-                        jobs[owner(knot.min(own))].push((body as u32, t as u32));
-                    }
+            let mut row = 0;
+            let mut free = Vec::with_capacity(3);
+            for &knot in &self.model.touches[body] {
+                let size = 3 * self.model.knots[knot].points.len();
+                free.extend(self.knot_group[knot].map(|group| Span {
+                    place: place(group),
+                    row,
+                    size,
+                }));
+                row += size;
+            }
+            let own = self.body_group[body].map(place);
+            for &column in &free {
+                if let Some(own) = own {
+                    give(Job::Link { body, knot: column, own }, column.place.min(own));
+                    continue;
                 }
-                None => {
-                    if let Some(first) = free.map(|(_, place)| place).min() {
-                        jobs[owner(first)].push((body as u32, WHOLE));
-                    }
+                for &row in free.iter().filter(|row| row.place >= column.place) {
+                    give(Job::Block { body, row, column }, column.place);
                 }
             }
         }
@@ -155,6 +182,18 @@ impl<'a> System<'a> {
             all.extend_from_slice(&values);
         }
         all
+    }
+
+    /// `yᵀ K y` from the sleeves' deviations.
+    pub(super) fn resistance(&self, y: &[f64]) -> f64 {
+        let mut values = Vec::new();
+        let bodies = self.motions.iter().enumerate();
+        let squares = bodies.map(|(body, motions)| {
+            self.gather(body, y, &mut values);
+            motions.clear_values(&mut values);
+            values.iter().map(|x| x * x).sum::<f64>()
+        });
+        squares.sum()
     }
 
     /// How far each sleeve leaves its pin when bodies follow the heavier sleeves more.
@@ -261,32 +300,6 @@ fn motions(model: &Model, fixed: Option<usize>, threads: usize) -> Vec<Motions> 
         }
     };
     in_parts(model.bodies.len(), threads, |part| part.map(of).collect())
-}
-
-/// `make` for ranges that cover `0..count`, side by side, put together in order.
-pub(super) fn in_parts<T: Send>(
-    count: usize,
-    threads: usize,
-    make: impl Fn(Range<usize>) -> Vec<T> + Sync,
-) -> Vec<T> {
-    if threads < 2 || count < 2000 {
-        return make(0..count);
-    }
-    let share = count.div_ceil(threads);
-    std::thread::scope(|scope| {
-        let parts =
-            (0..threads).map(|k| (k * share).min(count)..((k + 1) * share).min(count));
-        let make = &make;
-        let work: Vec<_> = parts.map(|part| scope.spawn(move || make(part))).collect();
-        let mut all = Vec::with_capacity(count);
-        for part in work {
-            match part.join() {
-                Ok(part) => all.extend(part),
-                Err(panic) => std::panic::resume_unwind(panic),
-            }
-        }
-        all
-    })
 }
 
 /// Which groups meet in a body.

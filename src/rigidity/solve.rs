@@ -1,0 +1,200 @@
+//! Solving with the factor: down its tree, and up again.
+
+use crate::rigidity::factor::Factor;
+use crate::rigidity::panel::{ABREAST, Row};
+use crate::rigidity::side::side_by_side;
+use crate::rigidity::symbolic::{Supernode, Symbolic};
+use std::ops::Range;
+use std::sync::{Mutex, PoisonError};
+
+impl Factor<'_> {
+    /// Solves for `count` right-hand sides, which lie row by row in `x`, `count` numbers per
+    /// unknown; `x` receives the solutions.
+    pub(super) fn solve(&self, x: &mut [f64], count: usize) {
+        if let (ABREAST, (rows, [])) = (count, x.as_chunks_mut()) {
+            self.solve_rows(rows);
+            return;
+        }
+        let mut rows = vec![[0.0; ABREAST]; self.symbolic.unknowns()];
+        for from in (0..count).step_by(ABREAST) {
+            let some = ABREAST.min(count - from);
+            for (row, x) in rows.iter_mut().zip(x.chunks_exact(count)) {
+                row[..some].copy_from_slice(&x[from..from + some]);
+            }
+            self.solve_rows(&mut rows);
+            for (row, x) in rows.iter().zip(x.chunks_exact_mut(count)) {
+                x[from..from + some].copy_from_slice(&row[..some]);
+            }
+        }
+    }
+
+    fn solve_rows(&self, x: &mut [Row]) {
+        let beyond = self.each_branch(x, |part, k| {
+            for s in self.range(k) {
+                self.forward(s, part);
+            }
+        });
+        for (&root, beyond) in self.branches.iter().zip(&beyond) {
+            let mut beyond = beyond.iter();
+            for &group in &self.symbolic.supernodes[root].rows {
+                let rows = &mut x[self.symbolic.rows(group as usize)];
+                rows.iter_mut().zip(&mut beyond).for_each(|(x, v)| add(x, v));
+            }
+        }
+        let mut trunk = Part::new(self.symbolic);
+        trunk.own = x;
+        trunk.groups = 0..self.symbolic.place.len();
+        self.trunk.iter().for_each(|&s| self.forward(s, &mut trunk));
+        self.trunk.iter().rev().for_each(|&s| self.backward(s, &mut trunk));
+        let roots = self.branches.iter().map(|&root| &self.symbolic.supernodes[root]);
+        let beyond: Vec<Vec<Row>> = roots
+            .map(|root| {
+                let mut rows = Vec::new();
+                trunk.gather(&root.rows, &mut rows);
+                rows
+            })
+            .collect();
+        self.each_branch(x, |part, k| {
+            part.beyond.clone_from(&beyond[k]);
+            for s in self.range(k).rev() {
+                self.backward(s, part);
+            }
+        });
+    }
+
+    /// Runs `task` on the part of `x` that belongs to each branch; returns what each leaves
+    /// for the unknowns beyond it.
+    fn each_branch(
+        &self,
+        x: &mut [Row],
+        task: impl Fn(&mut Part, usize) + Sync,
+    ) -> Vec<Vec<Row>> {
+        let (symbolic, nodes) = (self.symbolic, &self.symbolic.supernodes);
+        let groups = |k: usize| {
+            let range = self.range(k);
+            nodes[range.start].first..nodes[range.end - 1].end
+        };
+        let mut by_place: Vec<usize> = (0..self.branches.len()).collect();
+        by_place.sort_by_key(|&k| self.branches[k]);
+        let (mut rest, mut cut) = (x, 0);
+        let mut owns: Vec<&mut [Row]> =
+            self.branches.iter().map(|_| [].as_mut()).collect();
+        for k in by_place {
+            let [from, to] =
+                [groups(k).start, groups(k).end].map(|group| symbolic.start[group]);
+            let own;
+            (own, rest) = rest.split_at_mut(to - cut);
+            owns[k] = &mut own[from - cut..];
+            cut = to;
+        }
+        let owns: Vec<_> = owns.into_iter().map(Mutex::new).collect();
+        side_by_side(
+            self.threads,
+            self.branches.len(),
+            || (vec![0; symbolic.place.len()], Vec::new()),
+            |(local, scratch), k| {
+                // Nobody else asks for this part.
+                let mut own = owns[k].lock().unwrap_or_else(PoisonError::into_inner);
+                let mut part = Part::new(symbolic);
+                (part.local, part.scratch) =
+                    (std::mem::take(local), std::mem::take(scratch));
+                part.enter(&nodes[self.branches[k]]);
+                part.groups = groups(k);
+                part.own = &mut own;
+                task(&mut part, k);
+                (*local, *scratch) = (part.local, part.scratch);
+                part.beyond
+            },
+        )
+    }
+
+    fn forward(&self, s: usize, part: &mut Part) {
+        let node = &self.symbolic.supernodes[s];
+        let own = part.unknowns(node);
+        let mut rows = std::mem::take(&mut part.scratch);
+        rows.clear();
+        rows.extend_from_slice(&part.own[own.clone()]);
+        rows.resize(node.width + node.below, [0.0; ABREAST]);
+        self.columns(s).forward(&mut rows);
+        let (solved, mut rest) = rows.split_at(node.width);
+        part.own[own].copy_from_slice(solved);
+        for &group in &node.rows {
+            let into = part.rows(group as usize);
+            let values;
+            (values, rest) = rest.split_at(into.len());
+            into.iter_mut().zip(values).for_each(|(x, v)| add(x, v));
+        }
+        part.scratch = rows;
+    }
+
+    fn backward(&self, s: usize, part: &mut Part) {
+        let node = &self.symbolic.supernodes[s];
+        let own = part.unknowns(node);
+        let mut rows = std::mem::take(&mut part.scratch);
+        rows.clear();
+        rows.extend_from_slice(&part.own[own.clone()]);
+        part.gather(&node.rows, &mut rows);
+        self.columns(s).backward(&mut rows);
+        part.own[own].copy_from_slice(&rows[..node.width]);
+        part.scratch = rows;
+    }
+}
+
+/// Unknowns of some successive groups, and of those beyond that these touch.
+struct Part<'a> {
+    symbolic: &'a Symbolic,
+    groups: Range<usize>,
+    own: &'a mut [Row],
+    beyond: Vec<Row>,
+    /// By group beyond, where its rows begin.
+    local: Vec<u32>,
+    /// The rows of one supernode.
+    scratch: Vec<Row>,
+}
+
+impl<'a> Part<'a> {
+    fn new(symbolic: &'a Symbolic) -> Self {
+        let (own, groups) = ([].as_mut(), 0..0);
+        let (beyond, local, scratch) = (Vec::new(), Vec::new(), Vec::new());
+        Self { symbolic, groups, own, beyond, local, scratch }
+    }
+
+    /// Makes room for what the subtree of `root` touches beyond itself.
+    fn enter(&mut self, root: &Supernode) {
+        let mut at = 0;
+        for &group in &root.rows {
+            self.local[group as usize] = at as u32;
+            at += self.symbolic.size(group as usize);
+        }
+        self.beyond.resize(at, [0.0; ABREAST]);
+    }
+
+    /// The rows of a group.
+    fn rows(&mut self, group: usize) -> &mut [Row] {
+        let rows = self.symbolic.rows(group);
+        if group < self.groups.end {
+            let first = self.symbolic.start[self.groups.start];
+            &mut self.own[rows.start - first..rows.end - first]
+        } else {
+            let at = self.local[group] as usize;
+            &mut self.beyond[at..at + rows.len()]
+        }
+    }
+
+    /// Where the unknowns are that a supernode eliminates.
+    fn unknowns(&self, node: &Supernode) -> Range<usize> {
+        let at = self.symbolic.start[node.first] - self.symbolic.start[self.groups.start];
+        at..at + node.width
+    }
+
+    /// Adds the rows of some groups at the end of `into`.
+    fn gather(&mut self, groups: &[u32], into: &mut Vec<Row>) {
+        for &group in groups {
+            into.extend_from_slice(self.rows(group as usize));
+        }
+    }
+}
+
+fn add(into: &mut Row, values: &Row) {
+    into.iter_mut().zip(values).for_each(|(x, v)| *x += v);
+}
