@@ -7,8 +7,8 @@ use crate::joint::Joint;
 use crate::nest::{self, Effort, Layout, NestError, Shape, Stock, Turns};
 use crate::parts::{self, Fit, FoldMarks, Making, Marking, Part};
 use crate::rigidity::{
-    self, FEW_STEPS, Fingerprint, Model, Pairing, Question, RigidityFinding, SwayLimit,
-    Verdict,
+    self, FEW_STEPS, Fingerprint, Model, Pairing, Question, RigidityFinding, Stopped,
+    SwayLimit, Verdict,
 };
 use crate::sheets::{self, Frame, Kerf, Laying, Sheet};
 use crate::structure::{Draft, Structure};
@@ -194,10 +194,9 @@ impl Job {
         template: &Template,
         watch: &mut dyn Watch,
     ) -> Result<(), Interrupted> {
-        watch.progress("rigidity", 0, 1);
-        let verdict = verdict(structure, joint, template, None);
-        match verdict {
-            Ok(verdict) => {
+        match verdict(structure, joint, (template, None), watch) {
+            Ok(Err(Stopped)) => return Err(Interrupted),
+            Ok(Ok(verdict)) => {
                 let accepted = self.accepted_flexible.as_deref();
                 self.findings.extend(judged(&verdict, accepted));
                 self.verdict = Some(verdict);
@@ -258,24 +257,26 @@ const CURABLE: usize = 2000;
 /// Judges a structure with a joint; the question is the template's unless one is given.
 ///
 /// # Errors
-/// A limit that cannot be read.
+/// A limit that cannot be read; within, [`Stopped`] if the watch stopped the work.
 pub fn verdict(
     structure: &Structure,
     joint: Joint,
-    template: &Template,
-    asked: Option<&Question>,
-) -> Result<Verdict, RigidityFinding> {
+    (template, asked): (&Template, Option<&Question>),
+    watch: &mut dyn Watch,
+) -> Result<Result<Verdict, Stopped>, RigidityFinding> {
     let question = match asked {
         Some(question) => *question,
         None => question(structure, template)?,
     };
     let (model, _, fingerprint) = model(structure, joint, template);
-    let verdict = rigidity::judge(&model, &question, fingerprint);
-    if verdict.passes() || model.bodies.len() > CURABLE {
-        return Ok(verdict);
-    }
-    let remedies = rigidity::remedies(&model, &question, FEW_STEPS);
-    Ok(verdict.with_remedies(remedies))
+    let verdict = rigidity::judge(&model, &question, fingerprint, watch);
+    Ok(verdict.and_then(|verdict| {
+        if verdict.passes() || model.bodies.len() > CURABLE {
+            return Ok(verdict);
+        }
+        let remedies = rigidity::remedies(&model, &question, FEW_STEPS, watch)?;
+        Ok(verdict.with_remedies(remedies))
+    }))
 }
 
 /// Findings of a verdict; what is accepted becomes a warning.
@@ -313,7 +314,8 @@ fn turns(template: &Template) -> Turns {
     }
 }
 
-fn tolerance(template: &Template) -> Tolerance {
+/// What a structure has to keep, as the template says.
+pub fn tolerance(template: &Template) -> Tolerance {
     Tolerance {
         planarity_warn: template.gate.planarity_warn_percent / 100.0,
         planarity_limit: template.gate.planarity_limit_percent / 100.0,

@@ -3,17 +3,17 @@
 use crate::cli::args::InputArgs;
 use crate::cli::input;
 use crate::cli::jobdir::JobDirError;
-use crate::cli::run::{End, Failure, complain, print};
-use crate::cli::show::Voice;
+use crate::cli::run::{End, Failure, check_json, complain, print};
+use crate::cli::show::{Terminal, Voice};
 use crate::diagnostic::{Finding, passes};
 use crate::job;
 use crate::joint::Joint;
 use crate::rigidity::{
     self, Fingerprint, Look, MOST_PAIRED, MOST_STEPS, Model, Pairing, Question,
-    RigidityFinding, SwayLimit, Verdict,
+    RigidityFinding, Stopped, SwayLimit, Verdict,
 };
 use crate::structure::Structure;
-use crate::tolerance::Tolerance;
+use crate::watch::Watch;
 use clap::builder::PossibleValue;
 use clap::{Args, ValueEnum};
 use std::path::{Path, PathBuf};
@@ -130,7 +130,7 @@ struct Case {
 /// Runs `rigidity`.
 pub(super) fn rigidity(args: &RigidityArgs, voice: Voice) -> Result<End, Failure> {
     let case = match &args.linkage {
-        Some(path) => linkage(path),
+        Some(path) => linkage(path, args.input.json),
         None => structure(&args.input),
     };
     let mut case = match case? {
@@ -138,18 +138,22 @@ pub(super) fn rigidity(args: &RigidityArgs, voice: Voice) -> Result<End, Failure
         Err(findings) => {
             voice.findings(&findings);
             voice.say("refused: there is nothing to judge");
+            if args.input.json {
+                print(&format!("{}\n", check_json(&findings)));
+            }
             return Ok(End::Refused);
         }
     };
     args.amend(&mut case.question);
     if let Some(fact) = args.too_many_pairs(case.model.bodies.len()) {
-        return Ok(complain(&fact, &fact.to_string(), args.input.json.then(Vec::new)));
+        let said = fact.to_string();
+        let findings = || vec![Finding::from(fact.clone())];
+        return Ok(complain(&fact, &said, args.input.json.then(findings)));
     }
-    let mut verdict = rigidity::judge(&case.model, &case.question, case.fingerprint);
-    if args.remedies {
-        let remedies = rigidity::remedies(&case.model, &case.question, MOST_STEPS);
-        verdict = verdict.with_remedies(remedies);
-    }
+    let mut terminal = Terminal::new(voice, None);
+    let verdict = args.verdict(&case, &mut terminal);
+    terminal.finish();
+    let verdict = verdict.map_err(|Stopped| Failure::Interrupted)?;
     case.findings.extend(verdict.findings().into_iter().map(Finding::from));
     voice.findings(&case.findings);
     if args.input.json {
@@ -163,6 +167,16 @@ pub(super) fn rigidity(args: &RigidityArgs, voice: Voice) -> Result<End, Failure
 }
 
 impl RigidityArgs {
+    fn verdict(&self, case: &Case, watch: &mut dyn Watch) -> Result<Verdict, Stopped> {
+        let (model, question) = (&case.model, &case.question);
+        let verdict = rigidity::judge(model, question, case.fingerprint.clone(), watch)?;
+        if !self.remedies {
+            return Ok(verdict);
+        }
+        let remedies = rigidity::remedies(model, question, MOST_STEPS, watch)?;
+        Ok(verdict.with_remedies(remedies))
+    }
+
     fn draw(
         &self,
         path: &Path,
@@ -199,13 +213,15 @@ impl RigidityArgs {
     }
 }
 
-fn linkage(path: &Path) -> Result<Result<Case, Vec<Finding>>, Failure> {
+fn linkage(path: &Path, json: bool) -> Result<Result<Case, Vec<Finding>>, Failure> {
     let text = input::text_of(path)?;
     let model = match rigidity::read_linkage(&text) {
         Ok(model) => model,
         Err(facts) => {
+            let findings = || facts.iter().cloned().map(Finding::from).collect();
+            let mut json = json.then(findings);
             for fact in &facts {
-                complain(fact, &format!("{}: {fact}", path.display()), None);
+                complain(fact, &format!("{}: {fact}", path.display()), json.take());
             }
             return Err(Failure::Said(End::CouldNotRun));
         }
@@ -232,7 +248,7 @@ fn structure(args: &InputArgs) -> Result<Result<Case, Vec<Finding>>, Failure> {
     let template = input::template(&args.template)?;
     let input = input::structure(args)?;
     let mut findings = input.findings;
-    let structure = match Structure::new(input.draft, &Tolerance::default()) {
+    let structure = match Structure::new(input.draft, &job::tolerance(&template)) {
         Ok((structure, found)) => {
             findings.extend(found);
             structure
@@ -260,7 +276,9 @@ fn say(verdict: &Verdict, model: &Model, voice: Voice) {
         "{} bodies, {} pins, mobility {}",
         model.bodies.len(),
         model.pins(),
-        verdict.mobility()
+        verdict
+            .mobility()
+            .map_or_else(|| "unknown".to_owned(), |count| count.to_string())
     ));
     voice.say(&verdict.summary());
     for line in verdict.remedies_in_words() {

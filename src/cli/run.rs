@@ -85,6 +85,7 @@ pub fn run(cli: Cli) -> ExitCode {
         Command::Coupon(args) => args.json,
         Command::Check(args) => args.input.json,
         Command::Nest(args) => args.json,
+        Command::Rigidity(args) => args.input.json,
         _ => false,
     };
     let end = match cli.command {
@@ -343,7 +344,7 @@ fn check(args: &InputArgs, voice: Voice) -> Result<End, Failure> {
     Ok(if fine { End::Done } else { End::Refused })
 }
 
-fn check_json(findings: &[Finding]) -> serde_json::Value {
+pub(super) fn check_json(findings: &[Finding]) -> serde_json::Value {
     serde_json::json!({"passes": passes(findings), "findings": findings})
 }
 

@@ -9,6 +9,7 @@ use crate::rigidity::front::Work;
 use crate::rigidity::panel::Columns;
 use crate::rigidity::side::side_by_side;
 use crate::rigidity::symbolic::Symbolic;
+use crate::watch::Watch;
 use std::ops::Range;
 
 /// Where a symmetric matrix gets its entries from.
@@ -22,6 +23,28 @@ pub(super) trait Entries: Sync {
 /// The matrix is not positive definite: a motion meets no resistance at all.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) struct Singular;
+
+/// Why there is no answer.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Halt {
+    /// A factorisation or decomposition failed.
+    Failed,
+    /// Nobody waits for it any more.
+    Stopped,
+}
+
+impl From<Singular> for Halt {
+    fn from(_: Singular) -> Self {
+        Self::Failed
+    }
+}
+
+impl Halt {
+    /// To be asked between long steps.
+    pub(super) fn if_stopped(watch: &dyn Watch) -> Result<(), Self> {
+        if watch.stopped() { Err(Self::Stopped) } else { Ok(()) }
+    }
+}
 
 /// Below so many unknowns threads cost more than they save.
 const FEW: usize = 5000;

@@ -137,6 +137,16 @@ pub enum RigidityFinding {
     )]
     Contradiction { lower: f64, upper: f64 },
 
+    #[error("the rigidity could not be computed: a factorisation failed")]
+    #[diagnostic(
+        code(rigidity::not_solved),
+        help(
+            "look for bodies or axes that are out of all proportion to the rest \
+             (`finwright check`); without a verdict nothing is cut"
+        )
+    )]
+    NotSolved,
+
     #[error("the sway limit {text:?} is neither a length in mm nor like L/50")]
     #[diagnostic(
         code(rigidity::bad_limit),

@@ -4,8 +4,10 @@
 //! the factor is read from memory once (Grimes, Lewis and Simon 1994).
 
 use crate::rigidity::block::{Block, clear, orthonormal};
+use crate::rigidity::factor::Halt;
 use crate::rigidity::panel::ABREAST;
 use crate::tolerance::MODE_RESIDUAL;
+use crate::watch::Watch;
 use faer::linalg::matmul::matmul;
 use faer::{Accum, Mat, Par, Side};
 
@@ -40,7 +42,14 @@ pub(super) fn scattered(seed: u64, rows: usize, columns: usize) -> Block {
 
 /// Approximate eigenvectors of the `wanted` largest eigenvalues, orthonormal columns, the
 /// largest first; fewer if the space is smaller.
-pub(super) fn largest(operator: &dyn Operator, wanted: usize) -> Block {
+///
+/// # Errors
+/// [`Halt::Stopped`].
+pub(super) fn largest(
+    operator: &dyn Operator,
+    wanted: usize,
+    watch: &dyn Watch,
+) -> Result<Block, Halt> {
     let size = operator.size();
     let mut next = scattered(1, size, ABREAST);
     operator.project(&mut next);
@@ -51,6 +60,7 @@ pub(super) fn largest(operator: &dyn Operator, wanted: usize) -> Block {
     let mut projected: Mat<f64> = Mat::zeros(0, 0);
     let mut ends = None;
     for _ in 0..MOST_STEPS {
+        Halt::if_stopped(watch)?;
         // Short columns have lost digits: what they were cleared of may be back.
         operator.project(&mut next);
         clear(&basis, &mut next);
@@ -69,7 +79,7 @@ pub(super) fn largest(operator: &dyn Operator, wanted: usize) -> Block {
             break;
         }
     }
-    let Some(ends) = ends else { return Block::zeros(size, 0) };
+    let Some(ends) = ends else { return Ok(Block::zeros(size, 0)) };
     let count = wanted.min(ends.values.len());
     let mut vectors = Block::zeros(size, count);
     let mut from = 0;
@@ -78,7 +88,7 @@ pub(super) fn largest(operator: &dyn Operator, wanted: usize) -> Block {
         matmul(vectors.as_mut(), Accum::Add, block.as_ref(), part, 1.0, Par::Seq);
         from += block.columns;
     }
-    vectors
+    Ok(vectors)
 }
 
 /// Ritz values, the largest first, and their vectors in the basis.

@@ -2,11 +2,12 @@
 
 use crate::geometry::Vector3;
 use crate::rigidity::block::Block;
-use crate::rigidity::factor::{Factor, Singular};
+use crate::rigidity::factor::{Factor, Halt};
 use crate::rigidity::lanczos::{self, Operator};
 use crate::rigidity::model::Model;
 use crate::rigidity::paper::{Pairing, free_rank, velocity};
 use crate::rigidity::system::System;
+use crate::watch::Watch;
 use faer::Mat;
 
 /// `A`, row by row; unknowns are the motions of the bodies after the first.
@@ -100,11 +101,12 @@ impl Matrix<'_> {
         &self,
         wanted: usize,
         threads: usize,
-    ) -> Result<Solved, Singular> {
+        watch: &dyn Watch,
+    ) -> Result<Solved, Halt> {
         let system = System::new(self.model, Some(0), threads);
         let factor = system.factor(None)?;
         let inverse = PinInverse { system: &system, factor: &factor };
-        let vectors = lanczos::largest(&inverse, wanted);
+        let vectors = lanczos::largest(&inverse, wanted, watch)?;
         let mut found: Vec<(f64, Vec<[f64; 6]>)> = (0..vectors.columns)
             .map(|k| {
                 let vector = vectors.column(k);
@@ -114,7 +116,7 @@ impl Matrix<'_> {
             })
             .collect();
         found.sort_by(|a, b| a.0.total_cmp(&b.0));
-        let top = lanczos::largest(&Square(self), 1);
+        let top = lanczos::largest(&Square(self), 1, watch)?;
         let top = self.apply(&self.twists(|i| top.values[i]));
         let largest = top.iter().map(|x| x * x).sum::<f64>().sqrt();
         let (sigma, twists) = found.into_iter().unzip();

@@ -5,12 +5,13 @@
 //! spin unseen about their only axis are counted.
 
 use crate::rigidity::block::{self, Block, orthonormal};
-use crate::rigidity::factor::{Factor, Singular};
+use crate::rigidity::factor::{Factor, Halt};
 use crate::rigidity::lanczos::{self, Operator};
 use crate::rigidity::panel::ABREAST;
 use crate::rigidity::spectrum::{self, Inverse, Modes};
 use crate::rigidity::system::System;
 use crate::tolerance::{NO_RESISTANCE, SUSPECT_RESISTANCE};
+use crate::watch::Watch;
 use faer::Mat;
 
 /// Up to this many unknowns one dense decomposition is quicker.
@@ -30,17 +31,21 @@ pub(super) struct Mobility {
 /// Counts the exact motions of a system whose least resisted motions are `modes`.
 ///
 /// # Errors
-/// [`Singular`] if the factorisation fails.
-pub(super) fn mobility(system: &System, modes: &Modes) -> Result<Mobility, Singular> {
+/// [`Halt`] if a factorisation fails or the watch stops it.
+pub(super) fn mobility(
+    system: &System,
+    modes: &Modes,
+    watch: &dyn Watch,
+) -> Result<Mobility, Halt> {
     let suspect = modes.sigma.first().is_some_and(|s| *s < SUSPECT_RESISTANCE);
     let motions = if !suspect {
         Vec::new()
     } else if system.unknowns() <= DENSE {
-        let all = spectrum::dense(system, system.unknowns());
+        let all = spectrum::dense(system, system.unknowns())?;
         let zero = all.sigma.iter().take_while(|s| **s <= NO_RESISTANCE).count();
         all.motions.into_iter().take(zero).collect()
     } else {
-        null_space(system, &system.factor(None)?)
+        null_space(system, &system.factor(None)?, watch)?
     };
     let fixed = system.fixed();
     let spins = (0..system.motions.len()).filter(|&body| Some(body) != fixed);
@@ -53,7 +58,11 @@ pub(super) fn mobility(system: &System, modes: &Modes) -> Result<Mobility, Singu
 
 /// All motions without resistance, by refined inverse iteration on block after block until
 /// one holds a motion that is resisted.
-fn null_space(system: &System, factor: &Factor) -> Vec<Vec<f64>> {
+fn null_space(
+    system: &System,
+    factor: &Factor,
+    watch: &dyn Watch,
+) -> Result<Vec<Vec<f64>>, Halt> {
     let inverse = Inverse::new(system, factor);
     let size = inverse.size();
     let mut found: Vec<Block> = Vec::new();
@@ -65,6 +74,7 @@ fn null_space(system: &System, factor: &Factor) -> Vec<Vec<f64>> {
         orthonormal(block);
     };
     for seed in 0..(size / ABREAST) as u64 + 1 {
+        Halt::if_stopped(watch)?;
         let mut block = lanczos::scattered(seed, size, ABREAST);
         inverse.project(&mut block);
         for _ in 0..2 {
@@ -75,7 +85,7 @@ fn null_space(system: &System, factor: &Factor) -> Vec<Vec<f64>> {
             refine(&inverse, &mut block);
             fresh(&mut block, &found);
         }
-        let zero = unresisted(&inverse, &block);
+        let zero = unresisted(&inverse, &block)?;
         let count = zero.columns;
         found.push(zero);
         if count < ABREAST {
@@ -85,7 +95,7 @@ fn null_space(system: &System, factor: &Factor) -> Vec<Vec<f64>> {
     let motions = |block: &Block| -> Vec<Vec<f64>> {
         (0..block.columns).map(|k| inverse.motion(block, k)).collect()
     };
-    found.iter().flat_map(motions).collect()
+    Ok(found.iter().flat_map(motions).collect())
 }
 
 /// Takes from each column what its residual says it has too much of: `x - K⁻¹ Bᵀ (B x)`,
@@ -103,14 +113,15 @@ fn refine(inverse: &Inverse, block: &mut Block) {
 }
 
 /// Combinations of the columns that meet no resistance.
-fn unresisted(inverse: &Inverse, block: &Block) -> Block {
+fn unresisted(inverse: &Inverse, block: &Block) -> Result<Block, Halt> {
     let off = |k: usize| inverse.system.deviations(&inverse.motion(block, k));
     let columns: Vec<Vec<f64>> = (0..block.columns).map(off).collect();
     let rows = columns.first().map_or(0, Vec::len);
     let off = Mat::from_fn(rows, columns.len(), |i, k| columns[k][i]);
-    let Ok(svd) = off.thin_svd() else { return Block::zeros(block.rows, 0) };
+    let svd = off.thin_svd().map_err(|_| Halt::Failed)?;
     let count = columns.len();
     let zero: Vec<usize> = (0..count).filter(|&k| svd.S()[k] <= NO_RESISTANCE).collect();
     let v = svd.V();
-    block.times(Mat::from_fn(count, zero.len(), |i, k| v[(i, zero[k])]).as_ref())
+    let chosen = Mat::from_fn(count, zero.len(), |i, k| v[(i, zero[k])]);
+    Ok(block.times(chosen.as_ref()))
 }

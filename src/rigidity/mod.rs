@@ -55,7 +55,7 @@ pub fn least_resisted(
 ) -> Option<Vec<f64>> {
     let threads = std::thread::available_parallelism().map_or(1, usize::from);
     let system = system::System::new(model, fixed, threads);
-    spectrum::least(&system, wanted).ok().map(|modes| modes.sigma)
+    spectrum::least(&system, wanted, &()).ok().map(|modes| modes.sigma)
 }
 
-pub use verdict::{Fingerprint, Outcome, Question, SwayLimit, Verdict, judge};
+pub use verdict::{Fingerprint, Outcome, Question, Stopped, SwayLimit, Verdict, judge};

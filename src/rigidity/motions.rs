@@ -47,7 +47,8 @@ impl Motions {
             made.columns.extend(roots.iter().flat_map(|r| <[f64; 3]>::from(way * *r)));
         }
         made.rank = 3;
-        if radius > 0.0 {
+        // What is no number must not pass for a point.
+        if radius > 0.0 || radius.is_nan() {
             for k in 0..3 {
                 let turn = Vector3::ith(k, 1.0 / (radius * total.sqrt()));
                 let shift = centre.cross(&turn);
@@ -73,7 +74,9 @@ impl Motions {
             let lengths: [f64; 6] =
                 std::array::from_fn(|j| if j < k { 0.0 } else { norm(self.column(j)) });
             let longest = (k..6).max_by(|&a, &b| lengths[a].total_cmp(&lengths[b]));
-            let Some(longest) = longest.filter(|&j| lengths[j] > NO_ROTATION) else {
+            let Some(longest) =
+                longest.filter(|&j| lengths[j].is_nan() || lengths[j] > NO_ROTATION)
+            else {
                 break;
             };
             self.swap(k, longest);

@@ -8,11 +8,12 @@
 //! (notes §1.4, §3.1).
 
 use crate::geometry::{Point3, Vector3};
-use crate::rigidity::factor::Singular;
+use crate::rigidity::factor::Halt;
 use crate::rigidity::matrix::Matrix;
 use crate::rigidity::model::Model;
 use crate::rigidity::motions::Motions;
 use crate::tolerance::STANDS_STILL;
+use crate::watch::Watch;
 
 /// Which bodies on one axis are compared with which.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -117,14 +118,15 @@ pub(super) fn paper(
     (pairing, scale): (Pairing, f64),
     wanted: usize,
     threads: usize,
-) -> Result<Paper, Singular> {
+    watch: &dyn Watch,
+) -> Result<Paper, Halt> {
     let free = scaled(model, scale);
     let matrix = Matrix { model: &free, pairing };
     let (mut sigma, twists, largest) =
         if pairing != Pairing::Pin || model.bodies.len() <= DENSE {
             matrix.dense(wanted)
         } else {
-            matrix.sparse(wanted, threads)?
+            matrix.sparse(wanted, threads, watch)?
         };
     let spins: usize =
         (1..free.bodies.len()).map(|body| 6 - free_rank(&free, body)).sum();

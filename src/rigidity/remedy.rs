@@ -5,12 +5,14 @@
 //! are none, in the least resisted ones weighted by their compliance (notes §3.5).
 
 use crate::geometry::Vector3;
+use crate::rigidity::factor::Halt;
 use crate::rigidity::mobility::mobility;
 use crate::rigidity::model::{Body, Model};
 use crate::rigidity::spectrum::least;
-use crate::rigidity::sway::{self, node_velocity};
+use crate::rigidity::sway::{self, Sway, node_velocity};
 use crate::rigidity::system::System;
-use crate::rigidity::verdict::Question;
+use crate::rigidity::verdict::{Question, Stopped};
+use crate::watch::Watch;
 use std::collections::BTreeSet;
 
 /// What is done in one step.
@@ -45,10 +47,18 @@ pub const MOST_STEPS: usize = 200;
 const MODES: usize = 10;
 
 /// Two cures, each to where it passes or `most` steps: by welds, and by holding nodes.
-pub fn remedies(model: &Model, question: &Question, most: usize) -> Vec<Remedy> {
-    let welds = course(model, (question, most), &weld);
-    let fixes = course(model, (question, most), &fix);
-    welds.into_iter().chain(fixes).collect()
+///
+/// # Errors
+/// [`Stopped`] if the watch stopped the work.
+pub fn remedies(
+    model: &Model,
+    question: &Question,
+    most: usize,
+    watch: &mut dyn Watch,
+) -> Result<Vec<Remedy>, Stopped> {
+    let mut all = course(model, (question, most), &weld, watch)?;
+    all.extend(course(model, (question, most), &fix, watch)?);
+    Ok(all)
 }
 
 /// A choice of the next step from motions with weights, and the model after it.
@@ -62,20 +72,26 @@ fn course(
     model: &Model,
     (question, most): (&Question, usize),
     step: &Step,
-) -> Vec<Remedy> {
+    watch: &mut dyn Watch,
+) -> Result<Vec<Remedy>, Stopped> {
     let threads = std::thread::available_parallelism().map_or(1, usize::from);
     let mut model = model.clone();
     let mut taken = BTreeSet::new();
     let mut course: Vec<Remedy> = Vec::new();
     while course.len() < most {
-        let Some(motions) = weighed(&System::new(&model, None, threads)) else { break };
+        watch.progress("remedies", course.len(), most);
+        let motions = match weighed(&System::new(&model, None, threads), watch) {
+            Err(Halt::Stopped) => return Err(Stopped),
+            Err(Halt::Failed) => break,
+            Ok(motions) => motions,
+        };
         let system = System::new(&model, None, threads);
         let Some((choice, better)) = step(&system, &motions, &taken) else { break };
         drop(system);
         taken.insert(choice);
         let node = better.knots[choice.0].node;
         let cure = choice.1.map_or(Cure::Fix, Cure::Weld);
-        let remedy = effect(&better, question, (node, cure));
+        let remedy = effect(&better, question, (node, cure), watch)?;
         let passes = remedy.passes;
         course.push(remedy);
         if passes {
@@ -83,22 +99,27 @@ fn course(
         }
         model = better;
     }
-    course
+    Ok(course)
 }
 
 /// The motions to resist, with their weights.
-fn weighed(system: &System) -> Option<Vec<(f64, Vec<f64>)>> {
-    let modes = least(system, MODES).ok()?;
-    let exact = mobility(system, &modes).ok()?;
+fn weighed(system: &System, watch: &dyn Watch) -> Result<Vec<(f64, Vec<f64>)>, Halt> {
+    let modes = least(system, MODES, watch)?;
+    let exact = mobility(system, &modes, watch)?;
     if !exact.motions.is_empty() {
-        return Some(exact.motions.into_iter().map(|y| (1.0, y)).collect());
+        return Ok(exact.motions.into_iter().map(|y| (1.0, y)).collect());
     }
     let weight = |sigma: &f64| 1.0 / (sigma * sigma).max(f64::MIN_POSITIVE);
-    Some(modes.sigma.iter().map(weight).zip(modes.motions).collect())
+    Ok(modes.sigma.iter().map(weight).zip(modes.motions).collect())
 }
 
 /// What a model does after a step.
-fn effect(model: &Model, question: &Question, (node, cure): (usize, Cure)) -> Remedy {
+fn effect(
+    model: &Model,
+    question: &Question,
+    (node, cure): (usize, Cure),
+    watch: &dyn Watch,
+) -> Result<Remedy, Stopped> {
     let threads = std::thread::available_parallelism().map_or(1, usize::from);
     let system = System::new(model, None, threads);
     let mut remedy = Remedy {
@@ -108,20 +129,21 @@ fn effect(model: &Model, question: &Question, (node, cure): (usize, Cure)) -> Re
         mobility_after: 0,
         passes: false,
     };
-    let Ok(modes) = least(&system, MODES) else { return remedy };
-    let Ok(exact) = mobility(&system, &modes) else { return remedy };
-    remedy.mobility_after = exact.count;
-    if exact.count == 0 {
-        match sway::worst(&system, &modes, (question.play_mm, question.limit)) {
-            Ok(Some(sway)) => {
-                remedy.amplification_after = Some(sway.bracket.upper);
-                remedy.passes = sway.demand.upper * question.play_mm <= 1.0;
-            }
-            Ok(None) => (remedy.amplification_after, remedy.passes) = (Some(0.0), true),
-            Err(_) => {}
+    let mut look = || {
+        let modes = least(&system, MODES, watch)?;
+        remedy.mobility_after = mobility(&system, &modes, watch)?.count;
+        if remedy.mobility_after > 0 {
+            return Ok(());
         }
-    }
-    remedy
+        let asked = (question.play_mm, question.limit);
+        let sway = sway::worst(&system, &modes, asked, watch)?;
+        let upper = |of: fn(&Sway) -> f64| sway.as_ref().map_or(0.0, of);
+        remedy.amplification_after = Some(upper(|sway| sway.bracket.upper));
+        remedy.passes = upper(|sway| sway.demand.upper) * question.play_mm <= 1.0;
+        Ok(())
+    };
+    // What cannot be solved is no cure.
+    if let Err(Halt::Stopped) = look() { Err(Stopped) } else { Ok(remedy) }
 }
 
 /// How fast a body turns in a motion of the pins.

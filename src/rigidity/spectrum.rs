@@ -5,10 +5,11 @@
 //! from residuals `(I - QQᵀ) y`, never from `yᵀ K y`, which loses half the digits.
 
 use crate::rigidity::block::{self, Block};
-use crate::rigidity::factor::{Factor, Singular};
+use crate::rigidity::factor::{Factor, Halt};
 use crate::rigidity::lanczos::{self, Operator};
 use crate::rigidity::side::side_by_side;
 use crate::rigidity::system::System;
+use crate::watch::Watch;
 use faer::Mat;
 
 /// Up to this many unknowns everything is done by a dense singular value decomposition.
@@ -27,16 +28,22 @@ pub(super) struct Modes {
 /// are left out.
 ///
 /// # Errors
-/// [`Singular`] if the factorisation fails.
-pub(super) fn least(system: &System, wanted: usize) -> Result<Modes, Singular> {
+/// [`Halt`] if the factorisation fails or the watch stops it.
+pub(super) fn least(
+    system: &System,
+    wanted: usize,
+    watch: &dyn Watch,
+) -> Result<Modes, Halt> {
     if system.unknowns() == 0 {
         return Ok(Modes { sigma: Vec::new(), motions: Vec::new() });
     }
-    if is_dense(system) {
-        return Ok(dense(system, wanted));
-    }
-    let factor = system.factor(None)?;
-    Ok(by_inverse(system, &factor, wanted))
+    let modes = if is_dense(system) {
+        dense(system, wanted)?
+    } else {
+        by_inverse(system, &system.factor(None)?, wanted, watch)?
+    };
+    let found = modes.sigma.iter().all(|sigma| sigma.is_finite());
+    if found { Ok(modes) } else { Err(Halt::Failed) }
 }
 
 /// Whether a model is small enough for dense work.
@@ -45,11 +52,19 @@ pub(super) fn is_dense(system: &System) -> bool {
 }
 
 /// The same with a factor at hand.
-pub(super) fn by_inverse(system: &System, factor: &Factor, wanted: usize) -> Modes {
+///
+/// # Errors
+/// [`Halt::Stopped`].
+pub(super) fn by_inverse(
+    system: &System,
+    factor: &Factor,
+    wanted: usize,
+    watch: &dyn Watch,
+) -> Result<Modes, Halt> {
     let inverse = Inverse::new(system, factor);
-    let vectors = lanczos::largest(&inverse, wanted);
+    let vectors = lanczos::largest(&inverse, wanted, watch)?;
     let motions = (0..vectors.columns).map(|k| inverse.motion(&vectors, k));
-    measured(system, motions.collect())
+    Ok(measured(system, motions.collect()))
 }
 
 /// Motions sorted by their resistance.
@@ -137,7 +152,10 @@ impl Operator for Inverse<'_> {
 
 /// All by a singular value decomposition of the compatibility matrix `(I - QQᵀ) D^-½`;
 /// rows are added that resist the rigid motions of a whole that floats.
-pub(super) fn dense(system: &System, wanted: usize) -> Modes {
+///
+/// # Errors
+/// [`Halt::Failed`] if the decomposition fails.
+pub(super) fn dense(system: &System, wanted: usize) -> Result<Modes, Halt> {
     let roots: Vec<f64> = system.counts().into_iter().map(f64::sqrt).collect();
     let n = roots.len();
     let rigid =
@@ -157,9 +175,7 @@ pub(super) fn dense(system: &System, wanted: usize) -> Modes {
     let columns: Vec<Vec<f64>> = unknowns.iter().map(column).collect();
     let rows = columns.first().map_or(0, Vec::len);
     let matrix = Mat::from_fn(rows, columns.len(), |i, j| columns[j][i]);
-    let Ok(svd) = matrix.thin_svd() else {
-        return Modes { sigma: Vec::new(), motions: Vec::new() };
-    };
+    let svd = matrix.thin_svd().map_err(|_| Halt::Failed)?;
     let all = columns.len().min(rows);
     let motions = (0..wanted.min(all.saturating_sub(rigid.columns))).map(|k| {
         let mut y = vec![0.0; n];
@@ -168,5 +184,5 @@ pub(super) fn dense(system: &System, wanted: usize) -> Modes {
         }
         y
     });
-    measured(system, motions.collect())
+    Ok(measured(system, motions.collect()))
 }

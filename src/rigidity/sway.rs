@@ -2,11 +2,12 @@
 
 use crate::geometry::{Point3, Vector3};
 use crate::rigidity::amplify::{Bracket, Bracketing, Load};
-use crate::rigidity::factor::{Factor, Singular};
+use crate::rigidity::factor::{Factor, Halt};
 use crate::rigidity::model::Model;
 use crate::rigidity::spectrum::Modes;
 use crate::rigidity::system::System;
 use crate::rigidity::verdict::SwayLimit;
+use crate::watch::Watch;
 use nalgebra::Matrix3;
 use std::collections::BTreeSet;
 
@@ -15,10 +16,11 @@ use std::collections::BTreeSet;
 const ALL_NODES: usize = 600;
 /// Nodes of largest compliance that are looked at.
 const TOP: usize = 5;
-/// Rounds of tightening before it is content with a wide bracket.
+/// Rounds of tightening in all before it is content with a wide bracket, while the verdict
+/// is open.
 const MOST_ROUNDS: usize = 60;
-/// Up to this many unknowns the bracket is tightened though the verdict stands.
-const CHEAP: usize = 6000;
+/// The same times unknowns when the verdict stands and only the figures are wide.
+const MOST_WORK: usize = 400_000;
 
 /// The worst node and direction found.
 #[derive(Debug, Clone, PartialEq)]
@@ -67,12 +69,13 @@ pub(super) fn node_velocity(system: &System, knot: usize, y: &[f64]) -> Vector3 
 /// Brackets the amplification where it is worst. `None` if no node can move.
 ///
 /// # Errors
-/// [`Singular`] if a factorisation fails.
+/// [`Halt`] if a factorisation fails or the watch stops it.
 pub(super) fn worst(
     system: &System,
     modes: &Modes,
     (play, limit): (f64, SwayLimit),
-) -> Result<Option<Sway>, Singular> {
+    watch: &dyn Watch,
+) -> Result<Option<Sway>, Halt> {
     let factor = system.factor(None)?;
     let rigid = if system.floats { system.rigid() } else { Vec::new() };
     let spans = spans(system.model);
@@ -91,7 +94,7 @@ pub(super) fn worst(
     if all.is_empty() {
         return Ok(None);
     }
-    tighten(&mut all, play, &wall, system.unknowns() <= CHEAP)?;
+    tighten(&mut all, (play, &wall), MOST_WORK / system.unknowns().max(1), watch)?;
     let top = highest(&all, &wall);
     let demand = |of: fn(&Bracket) -> f64| {
         let each = all.iter().map(|b| of(&b.bracket()) / wall(b.load.knot));
@@ -122,17 +125,18 @@ fn highest(all: &[Bracketing], wall: &dyn Fn(usize) -> f64) -> usize {
 /// Tightens until the verdict stands, or what decides it is narrow.
 fn tighten(
     all: &mut [Bracketing],
-    play: f64,
-    wall: &dyn Fn(usize) -> f64,
-    cheap: bool,
-) -> Result<(), Singular> {
-    for round in 0..MOST_ROUNDS {
+    (play, wall): (f64, &dyn Fn(usize) -> f64),
+    more: usize,
+    watch: &dyn Watch,
+) -> Result<(), Halt> {
+    for round in 0..MOST_ROUNDS.max(more) {
+        Halt::if_stopped(watch)?;
         let top = highest(all, wall);
         let sways = |b: &Bracketing| b.bracket().lower * play > wall(b.load.knot);
         let stands = all[top].bracket().upper * play <= wall(all[top].load.knot)
             || all.iter().any(sways);
         let narrow = all[top].bracket().is_narrow();
-        if narrow || (stands && !(cheap && round < MOST_ROUNDS / 4)) {
+        if narrow || round >= if stands { more } else { MOST_ROUNDS } {
             return Ok(());
         }
         all[top].tighten()?;

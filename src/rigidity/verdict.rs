@@ -1,17 +1,20 @@
 //! Rigid, grey, flexible or mechanism.
 
 use crate::joint::Joint;
+use crate::rigidity::factor::Halt;
 use crate::rigidity::finding::RigidityFinding;
 use crate::rigidity::mobility::{Mobility, mobility};
 use crate::rigidity::model::{Body, Model};
 use crate::rigidity::paper::{Pairing, Paper, paper};
 use crate::rigidity::remedy::{self, Remedy};
-use crate::rigidity::spectrum::{Modes, least};
+use crate::rigidity::spectrum::least;
 use crate::rigidity::sway::{self, Sway};
 use crate::rigidity::system::System;
 use crate::structure::{Structure, write_json};
 use crate::tolerance::FORCE_BALANCE;
+use crate::watch::Watch;
 use sha2::{Digest, Sha256};
+use thiserror::Error;
 
 /// What a structure may sway.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -125,7 +128,8 @@ pub struct Verdict {
     of: Fingerprint,
     pub(super) bodies: Vec<Body>,
     pub(super) pins: usize,
-    pub(super) mobility: usize,
+    /// Exact motions, if they could be counted.
+    pub(super) mobility: Option<usize>,
     pub(super) paper: Option<Paper>,
     pub(super) spectrum: Vec<f64>,
     pub(super) play_mm: f64,
@@ -136,19 +140,37 @@ pub struct Verdict {
     notes: Vec<RigidityFinding>,
 }
 
+/// The watch stopped the work.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Error)]
+#[error("stopped")]
+pub struct Stopped;
+
 /// Judges a model. `of` says what it was made from.
-pub fn judge(model: &Model, question: &Question, of: Fingerprint) -> Verdict {
+///
+/// # Errors
+/// [`Stopped`] if the watch stopped the work.
+pub fn judge(
+    model: &Model,
+    question: &Question,
+    of: Fingerprint,
+    watch: &mut dyn Watch,
+) -> Result<Verdict, Stopped> {
     let threads = std::thread::available_parallelism().map_or(1, usize::from);
     let modes = question.modes.max(LEAST_MODES);
     let system = System::new(model, None, threads);
     let scaled = (question.pairing, question.scale);
+    watch.progress("rigidity", 0, STEPS);
+    let paper = match paper(model, scaled, question.modes, threads, watch) {
+        Err(Halt::Stopped) => return Err(Stopped),
+        paper => paper.ok(),
+    };
     let mut verdict = Verdict {
-        outcome: Outcome::Mechanism,
+        outcome: Outcome::Grey,
         of,
         bodies: model.bodies.clone(),
         pins: model.pins(),
-        mobility: 0,
-        paper: paper(model, scaled, question.modes, threads).ok(),
+        mobility: None,
+        paper,
         spectrum: Vec::new(),
         play_mm: question.play_mm.max(0.0),
         sway: None,
@@ -156,24 +178,16 @@ pub fn judge(model: &Model, question: &Question, of: Fingerprint) -> Verdict {
         remedies: Vec::new(),
         notes: notes(model),
     };
-    let found = least(&system, modes).and_then(|modes| {
-        let mobility = mobility(&system, &modes)?;
-        Ok((modes, mobility))
-    });
-    // A factorisation that fails in spite of the shift has met a mechanism.
-    let Ok((modes, mobility)) = found else {
-        verdict.mobility = 1;
-        return verdict;
-    };
-    verdict.spectrum = modes.sigma.iter().take(question.modes).copied().collect();
-    verdict.mobility = mobility.count;
-    if mobility.count > 0 {
-        verdict.loose = loosest(&system, &mobility);
-        return verdict;
+    match verdict.find(&system, (question, modes), watch) {
+        Err(Halt::Stopped) => return Err(Stopped),
+        Err(Halt::Failed) => verdict.notes.push(RigidityFinding::NotSolved),
+        Ok(()) => {}
     }
-    verdict.weigh(&system, &modes, question);
-    verdict
+    Ok(verdict)
 }
+
+/// Steps of a verdict.
+const STEPS: usize = 4;
 
 fn notes(model: &Model) -> Vec<RigidityFinding> {
     let mut notes = Vec::new();
@@ -199,28 +213,43 @@ fn loosest(system: &System, mobility: &Mobility) -> Option<usize> {
 }
 
 impl Verdict {
+    /// Counts the exact motions and, if there are none, weighs the sway.
+    fn find(
+        &mut self,
+        system: &System,
+        (question, modes): (&Question, usize),
+        watch: &mut dyn Watch,
+    ) -> Result<(), Halt> {
+        watch.progress("rigidity", 1, STEPS);
+        let modes = least(system, modes, watch)?;
+        self.spectrum = modes.sigma.iter().take(question.modes).copied().collect();
+        watch.progress("rigidity", 2, STEPS);
+        let mobility = mobility(system, &modes, watch)?;
+        self.mobility = Some(mobility.count);
+        if mobility.count > 0 {
+            self.outcome = Outcome::Mechanism;
+            self.loose = loosest(system, &mobility);
+            return Ok(());
+        }
+        watch.progress("rigidity", 3, STEPS);
+        self.sway = sway::worst(system, &modes, (self.play_mm, question.limit), watch)?;
+        self.weigh();
+        Ok(())
+    }
+
     /// Decides between rigid, grey and flexible.
-    fn weigh(&mut self, system: &System, modes: &Modes, question: &Question) {
-        self.outcome = Outcome::Rigid;
-        match sway::worst(system, modes, (self.play_mm, question.limit)) {
-            Err(_) => {
-                self.outcome = Outcome::Mechanism;
-                self.mobility = 1;
-            }
-            Ok(None) => {}
-            Ok(Some(sway)) => {
-                let (lower, upper) = (sway.bracket.lower, sway.bracket.upper);
-                if lower > upper * (1.0 + FORCE_BALANCE) {
-                    self.outcome = Outcome::Mechanism;
-                    self.mobility = 1;
-                    self.notes.push(RigidityFinding::Contradiction { lower, upper });
-                } else if sway.demand.lower * self.play_mm > 1.0 {
-                    self.outcome = Outcome::Flexible;
-                } else if sway.demand.upper * self.play_mm > 1.0 {
-                    self.outcome = Outcome::Grey;
-                }
-                self.sway = Some(sway);
-            }
+    fn weigh(&mut self) {
+        let Some(sway) = &self.sway else {
+            self.outcome = Outcome::Rigid;
+            return;
+        };
+        let (lower, upper) = (sway.bracket.lower, sway.bracket.upper);
+        if lower > upper * (1.0 + FORCE_BALANCE) {
+            self.notes.push(RigidityFinding::Contradiction { lower, upper });
+        } else if sway.demand.lower * self.play_mm > 1.0 {
+            self.outcome = Outcome::Flexible;
+        } else if sway.demand.upper * self.play_mm <= 1.0 {
+            self.outcome = Outcome::Rigid;
         }
     }
 
@@ -231,7 +260,14 @@ impl Verdict {
 
     /// Whether the gate lets it through as it is.
     pub fn passes(&self) -> bool {
-        matches!(self.outcome, Outcome::Rigid | Outcome::Grey)
+        matches!(self.outcome, Outcome::Rigid | Outcome::Grey) && !self.failed()
+    }
+
+    /// Whether it could not be computed, or not be trusted.
+    fn failed(&self) -> bool {
+        type Fact = RigidityFinding;
+        let bad = |fact| matches!(fact, &Fact::NotSolved | &Fact::Contradiction { .. });
+        self.notes.iter().any(bad)
     }
 
     /// What was judged.
@@ -239,8 +275,9 @@ impl Verdict {
         &self.of
     }
 
-    /// Exact motions left when one body or the fixed nodes are held.
-    pub fn mobility(&self) -> usize {
+    /// Exact motions left when one body or the fixed nodes are held; `None` if they could
+    /// not be counted.
+    pub fn mobility(&self) -> Option<usize> {
         self.mobility
     }
 
@@ -280,7 +317,11 @@ impl Verdict {
         let mut all = self.notes.clone();
         if self.outcome == Outcome::Mechanism {
             let node = self.loose.unwrap_or(0);
-            all.push(RigidityFinding::Mechanism { mobility: self.mobility, node });
+            let mobility = self.mobility.unwrap_or(0);
+            all.push(RigidityFinding::Mechanism { mobility, node });
+        }
+        if self.failed() {
+            return all;
         }
         let Some(sway) = &self.sway else { return all };
         let (play_mm, node, limit_mm) = (self.play_mm, sway.node, sway.limit_mm);
@@ -303,8 +344,12 @@ impl Verdict {
     pub fn summary(&self) -> String {
         let name = self.outcome.name();
         match (&self.sway, self.outcome) {
+            _ if self.failed() => {
+                "there is no verdict: it could not be computed".to_owned()
+            }
             (_, Outcome::Mechanism) => {
-                format!("{name}: {} motions without any resistance", self.mobility)
+                let mobility = self.mobility.unwrap_or(0);
+                format!("{name}: {mobility} motions without any resistance")
             }
             (Some(sway), _) => format!(
                 "{name}: node {} sways by {} for {} mm of play; the limit is {:.2} mm; up to \

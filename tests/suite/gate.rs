@@ -63,8 +63,10 @@ fn vault(fixed: Option<Vec<usize>>) -> Draft {
 
 fn outcome(draft: Draft, joint: Joint) -> Outcome {
     let (structure, _) = Structure::new(draft, &Tolerance::default()).expect("it is one");
-    let verdict = job::verdict(&structure, joint, &default_template(), None);
-    verdict.expect("the template's limit can be read").outcome()
+    let asked = (&default_template(), None);
+    let verdict = job::verdict(&structure, joint, asked, &mut ());
+    let verdict = verdict.expect("the template's limit can be read");
+    verdict.expect("nobody stops it").outcome()
 }
 
 #[test]

@@ -8,7 +8,10 @@ use crate::geometry::{Point3, Vector3};
 use crate::rigidity::mobility::mobility;
 use crate::rigidity::spectrum::{by_inverse, dense, least};
 use crate::rigidity::system::System;
-use nets::{combescure, held_all_round, parallel, radial, torus};
+use nets::{
+    combescure, ellipsoid, held_all_round, parallel, parallel_by, radial, radial_by,
+    torus,
+};
 use serde_json::Value;
 
 fn linkages() -> Vec<(Value, Model)> {
@@ -27,10 +30,10 @@ fn known_linkages_have_their_mobility_and_singular_values() {
     for (case, model) in linkages() {
         let name = &case["name"];
         let system = System::new(&model, None, 1);
-        let modes = least(&system, 8).unwrap();
+        let modes = least(&system, 8, &()).unwrap();
         let dof = case["dof"].as_u64().unwrap() as usize;
-        assert_eq!(mobility(&system, &modes).unwrap().count, dof, "{name}");
-        let paper = paper::paper(&model, (Pairing::Pin, 1.0), dof + 3, 1).unwrap();
+        assert_eq!(mobility(&system, &modes, &()).unwrap().count, dof, "{name}");
+        let paper = paper::paper(&model, (Pairing::Pin, 1.0), dof + 3, 1, &()).unwrap();
         for (k, known) in numbers(&case["paper_sigma_next"]).into_iter().enumerate() {
             let ours = paper.singular_values[dof + k];
             assert!((ours - known).abs() <= 5e-7 * known, "{name} {ours} {known}");
@@ -49,9 +52,9 @@ fn dense_and_sparse_agree() {
         let model = torus(n, strips);
         for fixed in [None, Some(0)] {
             let system = System::new(&model, fixed, 1);
-            let dense = dense(&system, 6);
+            let dense = dense(&system, 6).unwrap();
             let factor = system.factor(None).unwrap();
-            let sparse = by_inverse(&system, &factor, 6);
+            let sparse = by_inverse(&system, &factor, 6, &()).unwrap();
             for (a, b) in dense.sigma.iter().zip(&sparse.sigma) {
                 assert!(close(*a, *b, 1e-7), "{:?} {:?}", dense.sigma, sparse.sigma);
             }
@@ -61,22 +64,29 @@ fn dense_and_sparse_agree() {
 
 fn dof(model: &Model) -> usize {
     let system = System::new(model, None, 1);
-    mobility(&system, &least(&system, 8).unwrap()).unwrap().count
+    mobility(&system, &least(&system, 8, &()).unwrap(), &()).unwrap().count
 }
 
 #[test]
 fn exact_families_have_their_mobility() {
-    for n in [4, 7, 12] {
-        assert_eq!(dof(&parallel(n, false, 0.2)), 2 * n - 3, "parallel {n}");
-        assert_eq!(dof(&radial(n, false, 0.2)), 2 * n - 3, "radial {n}");
+    for [n, m] in [[4, 4], [7, 7], [12, 12], [3, 8], [9, 5], [14, 6]] {
+        let [parallel, radial] = [parallel_by, radial_by];
+        assert_eq!(dof(&parallel([n, m], false, 0.2)), n + m - 3, "parallel {n} x {m}");
+        assert_eq!(dof(&radial([n, m], false, 0.2)), n + m - 3, "radial {n} x {m}");
+    }
+    for [n, m] in [[5, 5], [8, 8], [4, 9], [11, 6]] {
+        let [parallel, radial] = [parallel_by, radial_by];
+        assert_eq!(dof(&parallel([n, m], true, 0.0)), 1, "trellis {n} x {m}");
+        assert_eq!(dof(&parallel([n, m], true, 0.2)), 0, "jittered {n} x {m}");
+        // An assembly by normal equations once called this one rigid.
+        assert_eq!(dof(&radial([n, m], true, 0.0)), 1, "gnomonic {n} x {m}");
+        assert_eq!(dof(&radial([n, m], true, 0.2)), 0, "jittered, radial {n} x {m}");
     }
     for n in [5, 8] {
-        assert_eq!(dof(&parallel(n, true, 0.0)), 1, "trellis {n}");
-        assert_eq!(dof(&parallel(n, true, 0.2)), 0, "jittered {n}");
-        // An assembly by normal equations once called this one rigid.
-        assert_eq!(dof(&radial(n, true, 0.0)), 1, "gnomonic {n}");
         assert_eq!(dof(&torus(n, false)), 0);
         assert_eq!(dof(&combescure(n, false)), 0);
+        assert_eq!(dof(&ellipsoid(n, false)), 0);
+        assert_eq!(dof(&ellipsoid(n, true)), 0);
     }
     assert_eq!(dof(&held_all_round(parallel(7, false, 0.2), 7)), 0, "held all round");
 }
@@ -151,13 +161,15 @@ fn the_verdict_ignores_motion_scale_and_numbering() {
         Model::new(bodies, knots.collect())
     };
     for model in [torus(6, false), combescure(6, true), parallel(5, false, 0.2)] {
-        let nothing = Fingerprint::of_nothing;
-        let first = judge(&model, &question(), nothing());
+        let judge = |model: &Model, question: &Question| {
+            judge(model, question, Fingerprint::of_nothing(), &mut ()).unwrap()
+        };
+        let first = judge(&model, &question());
         let scaled = Question { play_mm: 0.025, ..question() };
         for (other, question) in
             [(turned(&model, 25.0), scaled), (renumbered(&model), question())]
         {
-            let second = judge(&other, &question, nothing());
+            let second = judge(&other, &question);
             assert_eq!(first.outcome(), second.outcome());
             assert_eq!(first.mobility(), second.mobility());
             for (a, b) in first.spectrum.iter().zip(&second.spectrum) {
@@ -173,7 +185,7 @@ fn one_thread_and_two_give_the_same_bits() {
     let sigma = |threads: usize| {
         let system = System::new(&model, None, threads);
         let factor = system.factor(None).unwrap();
-        by_inverse(&system, &factor, 4).sigma
+        by_inverse(&system, &factor, 4, &()).unwrap().sigma
     };
     assert!(System::new(&model, None, 1).unknowns() > 5000);
     assert_eq!(sigma(1), sigma(2));
@@ -183,7 +195,7 @@ fn one_thread_and_two_give_the_same_bits() {
 fn greedy_welds_are_as_few_as_the_mobility() {
     for model in [parallel(5, false, 0.2), radial(5, false, 0.1)] {
         let question = Question { play_mm: 0.0, ..question() };
-        let steps = remedies(&model, &question, MOST_STEPS);
+        let steps = remedies(&model, &question, MOST_STEPS, &mut ()).unwrap();
         let welds = steps.iter().filter(|r| matches!(r.cure, Cure::Weld(_)));
         let left: Vec<usize> = welds.map(|r| r.mobility_after).collect();
         assert_eq!(left, (0..7).rev().collect::<Vec<_>>());
@@ -193,14 +205,16 @@ fn greedy_welds_are_as_few_as_the_mobility() {
 #[test]
 fn degenerate_models_get_an_answer() {
     let loose = |bodies: usize| Model::new((0..bodies).map(Body::Link).collect(), vec![]);
-    let nothing = Fingerprint::of_nothing;
-    assert_eq!(judge(&loose(1), &question(), nothing()).mobility(), 0);
-    let two = judge(&loose(2), &question(), nothing());
-    assert_eq!((two.mobility(), two.outcome()), (6, Outcome::Mechanism));
+    let judge = |model: &Model| {
+        judge(model, &question(), Fingerprint::of_nothing(), &mut ()).unwrap()
+    };
+    assert_eq!(judge(&loose(1)).mobility(), Some(0));
+    let two = judge(&loose(2));
+    assert_eq!((two.mobility(), two.outcome()), (Some(6), Outcome::Mechanism));
     let mut held = torus(4, false);
     held.knots.iter_mut().for_each(|knot| knot.held = true);
-    let held = judge(&held, &question(), nothing());
-    assert_eq!((held.mobility(), held.outcome()), (0, Outcome::Rigid));
+    let held = judge(&held);
+    assert_eq!((held.mobility(), held.outcome()), (Some(0), Outcome::Rigid));
     assert!(held.findings().contains(&RigidityFinding::AllHeld));
     let mut apart = torus(4, false);
     let far = torus(4, false);
@@ -212,6 +226,47 @@ fn degenerate_models_get_an_answer() {
     }
     let apart = Model::new([apart.bodies, far.bodies].concat(), apart.knots);
     assert_eq!(dof(&apart), 6, "two pieces");
+}
+
+#[test]
+fn what_cannot_be_solved_is_no_verdict() {
+    // Small and large: by a dense decomposition and by a factorisation.
+    for n in [4, 12] {
+        let mut model = torus(n, false);
+        model.knots[5].points[0].x = f64::NAN;
+        let nothing = Fingerprint::of_nothing();
+        let verdict = judge(&model, &question(), nothing, &mut ()).unwrap();
+        assert_eq!(verdict.mobility(), None);
+        assert!(!verdict.passes());
+        assert_eq!(verdict.findings(), [RigidityFinding::NotSolved]);
+        assert!(verdict.json(None, false)["mobility"].is_null());
+    }
+}
+
+/// Stops after so many questions.
+struct Impatient(std::cell::Cell<usize>);
+
+impl crate::watch::Watch for Impatient {
+    fn progress(&mut self, _stage: &'static str, _done: usize, _total: usize) {}
+
+    fn stopped(&self) -> bool {
+        let left = self.0.get();
+        self.0.set(left.saturating_sub(1));
+        left == 0
+    }
+}
+
+#[test]
+fn a_verdict_can_be_stopped_wherever_it_is() {
+    let model = torus(16, false);
+    let nothing = Fingerprint::of_nothing;
+    let stops = |patience: usize| {
+        let mut watch = Impatient(patience.into());
+        judge(&model, &question(), nothing(), &mut watch) == Err(Stopped)
+    };
+    assert!((0..12).all(stops));
+    let mut watch = Impatient(3.into());
+    assert_eq!(remedies(&model, &question(), 2, &mut watch), Err(Stopped));
 }
 
 #[test]

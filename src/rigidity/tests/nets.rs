@@ -25,15 +25,24 @@ pub(super) fn grid(
     strips: bool,
     place: impl Fn(usize, usize) -> (Point3, Vector3),
 ) -> Model {
-    let mut on = vec![Vec::new(); n * n];
+    grid_by([n, n], strips, place)
+}
+
+/// A net of `n` × `m` nodes.
+fn grid_by(
+    [n, m]: [usize; 2],
+    strips: bool,
+    place: impl Fn(usize, usize) -> (Point3, Vector3),
+) -> Model {
+    let mut on = vec![Vec::new(); n * m];
     let mut bodies = Vec::new();
-    for j in 0..n {
+    for j in 0..m {
         for i in 0..n {
             if strips {
-                on[j * n + i].extend([j, n + i]);
+                on[j * n + i].extend([j, m + i]);
                 continue;
             }
-            for other in [(i + 1 < n).then_some(1), (j + 1 < n).then_some(n)] {
+            for other in [(i + 1 < n).then_some(1), (j + 1 < m).then_some(n)] {
                 let Some(step) = other else { continue };
                 let at = j * n + i;
                 on[at].push(bodies.len());
@@ -43,7 +52,7 @@ pub(super) fn grid(
         }
     }
     if strips {
-        bodies = (0..2 * n).map(Body::Strip).collect();
+        bodies = (0..n + m).map(Body::Strip).collect();
     }
     let knots = on.into_iter().enumerate().map(|(node, mut bodies)| {
         let (p, a) = place(node % n, node / n);
@@ -67,7 +76,11 @@ pub(super) fn plan(i: usize, j: usize, jitter: f64) -> [f64; 2] {
 }
 
 pub(super) fn parallel(n: usize, strips: bool, jitter: f64) -> Model {
-    grid(n, strips, |i, j| {
+    parallel_by([n, n], strips, jitter)
+}
+
+pub(super) fn parallel_by(size: [usize; 2], strips: bool, jitter: f64) -> Model {
+    grid_by(size, strips, |i, j| {
         let [x, y] = plan(i, j, jitter);
         (Point3::new(x, y, 0.05 * x * y), Vector3::z())
     })
@@ -75,11 +88,28 @@ pub(super) fn parallel(n: usize, strips: bool, jitter: f64) -> Model {
 
 /// Axes through one point, nodes on a sphere around it, over a plane net: a gnomonic grid.
 pub(super) fn radial(n: usize, strips: bool, jitter: f64) -> Model {
-    let middle = (n as f64 - 1.0) / 2.0;
-    grid(n, strips, |i, j| {
+    radial_by([n, n], strips, jitter)
+}
+
+pub(super) fn radial_by([n, m]: [usize; 2], strips: bool, jitter: f64) -> Model {
+    let [x0, y0] = [n, m].map(|count| (count as f64 - 1.0) / 2.0);
+    let radius = n.max(m) as f64;
+    grid_by([n, m], strips, |i, j| {
         let [x, y] = plan(i, j, jitter);
-        let out = Vector3::new(x - middle, y - middle, n as f64).normalize();
-        (Point3::from(out * n as f64), out)
+        let out = Vector3::new(x - x0, y - y0, radius).normalize();
+        (Point3::from(out * radius), out)
+    })
+}
+
+/// A patch of an ellipsoid with its normals along lines of curvature: a spheroid of half
+/// axes 3 and 2, its meridians and parallels.
+pub(super) fn ellipsoid(n: usize, strips: bool) -> Model {
+    grid(n, strips, |i, j| {
+        let (u, v) = (0.15 * i as f64, 0.3 + 0.1 * j as f64);
+        let ring = Vector3::new(trig::cos(u), trig::sin(u), 0.0) * trig::cos(v);
+        let place = ring * 3.0 + Vector3::z() * (2.0 * trig::sin(v));
+        let normal = ring / 3.0 + Vector3::z() * (trig::sin(v) / 2.0);
+        (Point3::from(place), normal)
     })
 }
 
