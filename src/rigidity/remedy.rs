@@ -135,7 +135,7 @@ fn effect(
         if remedy.mobility_after > 0 {
             return Ok(());
         }
-        let asked = (question.play_mm, question.limit);
+        let asked = (question.play_mm, question.limit, 0);
         let sway = sway::worst(&system, &modes, asked, watch)?;
         let upper = |of: fn(&Sway) -> f64| sway.as_ref().map_or(0.0, of);
         remedy.amplification_after = Some(upper(|sway| sway.bracket.upper));

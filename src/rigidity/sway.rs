@@ -20,7 +20,12 @@ const TOP: usize = 5;
 /// is open.
 const MOST_ROUNDS: usize = 60;
 /// The same times unknowns when the verdict stands and only the figures are wide.
-const MOST_WORK: usize = 400_000;
+const MOST_WORK: usize = 100_000;
+
+/// Rounds that figures are worth when the verdict stands.
+pub(super) fn rounds_for_figures(system: &System) -> usize {
+    (MOST_WORK / system.unknowns().max(1)).min(2 * MOST_ROUNDS)
+}
 
 /// The worst node and direction found.
 #[derive(Debug, Clone, PartialEq)]
@@ -66,14 +71,15 @@ pub(super) fn node_velocity(system: &System, knot: usize, y: &[f64]) -> Vector3 
     end(0) * (1.0 - share) + end(3) * share
 }
 
-/// Brackets the amplification where it is worst. `None` if no node can move.
+/// Brackets the amplification where it is worst, for a play and a limit; `more` rounds are
+/// spent on figures when the verdict stands. `None` if no node can move.
 ///
 /// # Errors
 /// [`Halt`] if a factorisation fails or the watch stops it.
 pub(super) fn worst(
     system: &System,
     modes: &Modes,
-    (play, limit): (f64, SwayLimit),
+    (play, limit, more): (f64, SwayLimit, usize),
     watch: &dyn Watch,
 ) -> Result<Option<Sway>, Halt> {
     let factor = system.factor(None)?;
@@ -94,7 +100,7 @@ pub(super) fn worst(
     if all.is_empty() {
         return Ok(None);
     }
-    tighten(&mut all, (play, &wall), MOST_WORK / system.unknowns().max(1), watch)?;
+    tighten(&mut all, (play, &wall), more, watch)?;
     let top = highest(&all, &wall);
     let demand = |of: fn(&Bracket) -> f64| {
         let each = all.iter().map(|b| of(&b.bracket()) / wall(b.load.knot));

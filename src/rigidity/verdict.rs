@@ -232,7 +232,9 @@ impl Verdict {
             return Ok(());
         }
         watch.progress("rigidity", 3, STEPS);
-        self.sway = sway::worst(system, &modes, (self.play_mm, question.limit), watch)?;
+        let more = sway::rounds_for_figures(system);
+        let asked = (self.play_mm, question.limit, more);
+        self.sway = sway::worst(system, &modes, asked, watch)?;
         self.weigh();
         Ok(())
     }

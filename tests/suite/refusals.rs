@@ -36,6 +36,28 @@ fn a_file_that_cannot_be_read_writes_nothing() {
 }
 
 #[test]
+fn rigidity_says_in_json_what_it_cannot_read() {
+    let cases: [(&[&str], &str, i32); 4] = [
+        (&["nowhere.json"], "input::unreadable", 1),
+        (&["fixtures/bad/read/bad_json.json"], "read::bad_json", 1),
+        (&["--linkage", "fixtures/bad/read/bad_json.json"], "rigidity::bad_linkage", 1),
+        (&["vault", "-t", "nowhere"], "template::unknown_name", 1),
+    ];
+    for (words, first, ends) in cases {
+        let output = Command::new(env!("CARGO_BIN_EXE_finwright"))
+            .args(["rigidity", "--json"])
+            .args(words)
+            .current_dir(env!("CARGO_MANIFEST_DIR"))
+            .output()
+            .unwrap();
+        let said: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+        assert_eq!(output.status.code(), Some(ends), "{words:?}");
+        assert_eq!(said["passes"], false, "{words:?}");
+        assert_eq!(said["findings"][0]["code"], first, "{words:?}");
+    }
+}
+
+#[test]
 fn a_draft_that_is_no_structure_writes_nothing_and_says_so_in_json() {
     let place = tempfile::tempdir().unwrap();
     let (code, printed) =
