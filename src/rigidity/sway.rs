@@ -20,11 +20,11 @@ const TOP: usize = 5;
 /// is open.
 const MOST_ROUNDS: usize = 60;
 /// The same times unknowns when the verdict stands and only the figures are wide.
-const MOST_WORK: usize = 100_000;
+const MOST_WORK: usize = 500_000;
 
 /// Rounds that figures are worth when the verdict stands.
 pub(super) fn rounds_for_figures(system: &System) -> usize {
-    (MOST_WORK / system.unknowns().max(1)).min(2 * MOST_ROUNDS)
+    (MOST_WORK / system.unknowns().max(1)).min(10 * MOST_ROUNDS)
 }
 
 /// The worst node and direction found.
@@ -142,7 +142,7 @@ fn tighten(
         let stands = all[top].bracket().upper * play <= wall(all[top].load.knot)
             || all.iter().any(sways);
         let narrow = all[top].bracket().is_narrow();
-        if narrow || round >= if stands { more } else { MOST_ROUNDS } {
+        if narrow || round >= if stands { more } else { more.max(MOST_ROUNDS) } {
             return Ok(());
         }
         all[top].tighten()?;
