@@ -245,6 +245,11 @@ fn text(path: &Path, bytes: Vec<u8>) -> Result<String, InputError> {
     })
 }
 
+/// The bytes of a text file in any encoding but UTF-16.
+pub(super) fn bytes_of(path: &Path) -> Result<Vec<u8>, InputError> {
+    bytes(path, |_| Ok(()))
+}
+
 /// The text of a file.
 pub(super) fn text_of(path: &Path) -> Result<String, InputError> {
     text(path, bytes(path, |_| Ok(()))?)

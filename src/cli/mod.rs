@@ -6,6 +6,7 @@ mod coupon;
 mod input;
 mod jobdir;
 mod nest;
+mod nest_drawing;
 mod nest_input;
 mod planarise;
 mod rigidity;

@@ -3,6 +3,7 @@
 use crate::cli::args::EffortLevel;
 use crate::cli::input::{self, InputError};
 use crate::cli::jobdir::{self, JobFile};
+use crate::cli::nest_drawing;
 use crate::cli::nest_input::{self, Order, Task};
 use crate::cli::run::{End, Failure};
 use crate::cli::show::{Terminal, Voice};
@@ -10,6 +11,7 @@ use crate::diagnostic::{Finding, Located, Severity};
 use crate::export;
 use crate::gate::approve_loose;
 use crate::nest::{self, Effort, Found, NestError, Shape, Stock};
+use crate::proof::{Format, drawn_parts};
 use crate::report::{Nested, layout_json, layout_sheets};
 use crate::watch::Watch;
 use clap::Args;
@@ -20,6 +22,8 @@ pub(super) const HELP: &str = "\
 Examples:
   finwright nest parts.json -o out/parts
       parts on the sheets that the file names
+  finwright nest drawing.dxf -t pmma-cast-3
+      the closed lines of a drawing with what is engraved on them, on the template's sheets
   finwright nest parts.json --sheet 600x400 --sheet 1000x600 --spacing 2 --margin 5
       on sheets of two sizes, as many of each as needed; the smaller one is tried first
   finwright nest swim.json --time-limit 60
@@ -30,14 +34,15 @@ Examples:
 /// Arguments of `nest`.
 #[derive(Debug, Args)]
 pub struct NestArgs {
-    /// Parts to nest: a finwright-parts or a strip-packing file (.json)
+    /// Parts to nest: a drawing (.dxf, .svg), or a finwright-parts or strip-packing file
+    /// (.json)
     pub input: PathBuf,
 
     /// Only check a layout.json that was written before
     #[arg(long)]
     pub check: bool,
 
-    /// Take the sheets of this template
+    /// Take the sheets of this template [default: as the file says, else pmma-cast-3]
     #[arg(short, long, value_name = "TEMPLATE", conflicts_with = "sheet")]
     pub template: Option<String>,
 
@@ -120,14 +125,14 @@ impl Watch for UntilStopped {
 
 /// Runs the command.
 pub(super) fn run(args: &NestArgs, voice: Voice) -> Result<End, Failure> {
-    let text = input::text_of(&args.input)?;
     let name = args.input.file_stem().unwrap_or_default().to_string_lossy().into_owned();
     let wrong = |source| Failure::Other(Box::new(source));
     if args.check {
+        let text = input::text_of(&args.input)?;
         let layout = nest_input::layout(&text, &name).map_err(wrong)?;
         return Ok(checked(&layout, voice));
     }
-    let mut order = nest_input::order(&text, &name).map_err(wrong)?;
+    let (mut order, notes) = order(args, &name)?;
     set_up(&mut order, args)?;
     let mut watch = UntilStopped(Terminal::new(voice, args.time_limit));
     let nested = nested(&mut order, &effort(args), &mut watch);
@@ -135,9 +140,30 @@ pub(super) fn run(args: &NestArgs, voice: Voice) -> Result<End, Failure> {
     let nested = nested.map_err(|error| Failure::Other(Box::new(error)))?;
     let dir = args.output.clone().unwrap_or_else(|| Path::new("out").join(&order.name));
     deliver(&order, &nested, args, &dir)?;
-    voice.findings(&left_over(&nested.unplaced));
+    voice.findings(
+        &notes.into_iter().chain(left_over(&nested.unplaced)).collect::<Vec<_>>(),
+    );
     voice.say(&summary(&nested, args, &dir));
     Ok(End::Done)
+}
+
+/// The parts to nest, and what the drawing they come from did not say.
+fn order(args: &NestArgs, name: &str) -> Result<(Order, Vec<Finding>), Failure> {
+    let ending = args.input.extension().unwrap_or_default().to_string_lossy();
+    let format = match ending.to_lowercase().as_str() {
+        "dxf" => Format::Dxf,
+        "svg" => Format::Svg,
+        _ => {
+            let text = input::text_of(&args.input)?;
+            let order = nest_input::order(&text, name);
+            return Ok((order.map_err(|e| Failure::Other(Box::new(e)))?, Vec::new()));
+        }
+    };
+    let drawn = drawn_parts(&input::bytes_of(&args.input)?, format)
+        .map_err(|error| Failure::Other(Box::new(error)))?;
+    let (order, notes) = nest_drawing::order(&drawn, name)
+        .map_err(|error| Failure::Other(Box::new(error)))?;
+    Ok((order, notes))
 }
 
 /// What could not be placed is a warning: the rest can be cut.
@@ -151,7 +177,8 @@ fn left_over(unplaced: &[NestError]) -> Vec<Finding> {
 
 /// What was typed goes before what the file says.
 fn set_up(order: &mut Order, args: &NestArgs) -> Result<(), InputError> {
-    if let Some(name) = &args.template {
+    let unsaid = order.stock.is_empty() && args.sheet.is_empty();
+    if let Some(name) = args.template.as_deref().or(unsaid.then_some("pmma-cast-3")) {
         let template = input::template(name)?;
         order.stock = crate::job::stock(&template);
     }
@@ -228,7 +255,7 @@ fn deliver(
     dir: &Path,
 ) -> Result<(), Failure> {
     let manifest = layout_json(&order.name, &order.shapes, &order.stock, nested);
-    let sheets = layout_sheets(&order.shapes, &order.stock, &nested.layout);
+    let sheets = layout_sheets(&order.shapes, &order.stock, &nested.layout, &order.lines);
     let text = serde_json::to_string_pretty(&manifest).unwrap_or_default() + "\n";
     let mut files =
         vec![JobFile { path: "layout.json".into(), bytes: text.into_bytes() }];

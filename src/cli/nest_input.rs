@@ -2,6 +2,7 @@
 
 use crate::geometry::Point2;
 use crate::nest::{Layout, NestedSheet, Placement, Shape, Stock, Turns};
+use crate::report::Lines;
 use miette::Diagnostic;
 use serde::Deserialize;
 use std::collections::BTreeMap;
@@ -37,6 +38,8 @@ pub(super) enum Task {
 pub(super) struct Order {
     pub name: String,
     pub task: Task,
+    /// What was drawn of each part, if it was not only corners.
+    pub lines: Lines,
     /// One for each copy of a part.
     pub shapes: Vec<Shape>,
     pub stock: Vec<Stock>,
@@ -163,6 +166,7 @@ pub(super) fn order(text: &str, name: &str) -> Result<Order, NestInputError> {
                 .filter(|name| is_folder_name(name))
                 .unwrap_or(name.to_owned()),
             task,
+            lines: Lines::new(),
             shapes,
             stock,
             holes_closed: false,
@@ -195,7 +199,8 @@ pub(super) fn layout(text: &str, name: &str) -> Result<Order, NestInputError> {
     }
     let stock = file.stock();
     let (name, task) = (name.to_owned(), Task::Sheets);
-    Ok(Order { name, task, shapes, stock, holes_closed: false, layout })
+    let lines = Lines::new();
+    Ok(Order { name, task, lines, shapes, stock, holes_closed: false, layout })
 }
 
 fn file(text: &str, name: &str) -> Result<File, NestInputError> {

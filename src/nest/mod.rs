@@ -166,11 +166,31 @@ pub fn search(
         return Ok(Found { layout: start, unplaced, trials: 1 });
     }
     let mut budget = budget(effort, watch);
-    let denser = search::denser(&start, shapes, stock, effort.seed, &mut budget);
+    let (placed, first) = placed(&start, shapes);
+    let denser = search::denser(&first, &placed.1, stock, effort.seed, &mut budget);
     let trials = trials(&budget);
+    let back = |mut layout: Layout| {
+        for placement in layout.sheets.iter_mut().flat_map(|s| &mut s.placements) {
+            placement.shape = placed.0[placement.shape];
+        }
+        layout
+    };
     let sound = |layout: &Layout| check(layout, shapes, stock).is_empty();
-    let layout = denser.filter(sound).unwrap_or(start);
+    let layout = denser.map(back).filter(sound).unwrap_or(start);
     Ok(Found { layout, unplaced, trials })
+}
+
+/// The shapes on a layout, with the indices they have among all, and the layout of them.
+fn placed(layout: &Layout, shapes: &[Shape]) -> ((Vec<usize>, Vec<Shape>), Layout) {
+    let on = layout.sheets.iter().flat_map(|sheet| &sheet.placements);
+    let mut indices: Vec<usize> = on.map(|placement| placement.shape).collect();
+    indices.sort_unstable();
+    let mut layout = layout.clone();
+    for placement in layout.sheets.iter_mut().flat_map(|s| &mut s.placements) {
+        placement.shape = indices.partition_point(|&k| k < placement.shape);
+    }
+    let shapes = indices.iter().map(|&k| shapes[k].clone()).collect();
+    ((indices, shapes), layout)
 }
 
 /// Packs all shapes into a strip as high as the sheet and as short as can be; the sheet's

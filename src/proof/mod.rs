@@ -15,6 +15,7 @@ mod fit;
 mod label;
 mod layout;
 mod lines;
+mod loose;
 mod manifest;
 mod matching;
 mod measure;
@@ -27,6 +28,7 @@ mod strips;
 
 pub use figures::{NodeFigure, PartFigure, SlitFigure, Worst};
 pub use finding::{ProofFinding, Spot};
+pub use loose::{Drawn, DrawnPart, Format, drawn_parts};
 pub use read::DrawingError;
 
 use crate::diagnostic::{Finding, Place};

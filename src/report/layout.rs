@@ -159,21 +159,36 @@ fn sheet_id(index: usize) -> String {
     format!("sheet-{:02}", index + 1)
 }
 
+/// The lines of each part that has others than its flattened outline and holes, by name.
+pub type Lines = BTreeMap<String, Vec<(Operation, Path)>>;
+
+/// The lines of a part as the nester sees it.
+fn rings(shape: &Shape) -> Vec<(Operation, Path)> {
+    let closed =
+        |ring: &Vec<Point2>| Path::Closed(Contour::polygon(ring.iter().copied()));
+    let holes = shape.holes.iter().map(|hole| (Operation::CutInner, closed(hole)));
+    holes.chain([(Operation::CutOuter, closed(&shape.outline))]).collect()
+}
+
 /// The sheets of a layout as lines to cut.
-pub fn layout_sheets(shapes: &[Shape], stock: &[Stock], layout: &Layout) -> Vec<Sheet> {
+pub fn layout_sheets(
+    shapes: &[Shape],
+    stock: &[Stock],
+    layout: &Layout,
+    lines: &Lines,
+) -> Vec<Sheet> {
     let sheet = |(index, nested): (usize, &NestedSheet)| {
         let Stock { width, height, .. } = stock[nested.stock];
         let corners = [(0.0, 0.0), (width, 0.0), (width, height), (0.0, height)];
         let border = Contour::polygon(corners.map(|(x, y)| Point2::new(x, y)));
         let mut strokes: Vec<Stroke> = Vec::new();
         for p in &nested.placements {
-            let cut = |operation, ring: &Vec<Point2>| {
-                let path = Contour::polygon(ring.iter().map(|&corner| placed(p, corner)));
-                Stroke { operation, part: p.shape, path: Path::Closed(path) }
-            };
-            let Shape { outline, holes, .. } = &shapes[p.shape];
-            strokes.extend(holes.iter().map(|hole| cut(Operation::CutInner, hole)));
-            strokes.push(cut(Operation::CutOuter, outline));
+            let shape = &shapes[p.shape];
+            let drawn = lines.get(&shape.name).cloned().unwrap_or_else(|| rings(shape));
+            strokes.extend(drawn.into_iter().map(|(operation, path)| {
+                let path = path.moved(|corner| placed(p, corner));
+                Stroke { operation, part: p.shape, path }
+            }));
         }
         strokes.sort_by_key(|stroke| stroke.operation);
         let frame = vec![Path::Closed(border)];

@@ -5,5 +5,5 @@ mod layout;
 mod manifest;
 
 pub use bill::bill;
-pub use layout::{Nested, layout_json, layout_sheets};
+pub use layout::{Lines, Nested, layout_json, layout_sheets};
 pub use manifest::{Source, manifest};

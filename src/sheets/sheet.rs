@@ -40,6 +40,16 @@ pub enum Path {
     Closed(Contour),
 }
 
+impl Path {
+    /// The path after `map` moved every corner; `map` must keep lengths and turning.
+    pub fn moved(&self, map: impl Fn(Point2) -> Point2) -> Self {
+        match self {
+            Self::Open(points) => Self::Open(points.iter().map(|&p| map(p)).collect()),
+            Self::Closed(contour) => Self::Closed(contour.moved(map)),
+        }
+    }
+}
+
 /// One operation along one path.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Stroke {

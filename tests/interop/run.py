@@ -11,7 +11,9 @@ import time
 from dataclasses import dataclass
 from pathlib import Path
 
+import nesting
 from check_job import check_same
+from nest_layout import faults as layout_faults
 from planar import SAME, planarities
 
 HERE = Path(__file__).resolve().parent
@@ -167,6 +169,8 @@ def main() -> int:
         runner = Runner(options.binary.resolve(), Path(scratch), extra)
         if options.only in "coupon":
             runner.coupon()
+        if options.only in "nest":
+            nesting.checked(runner, layout_faults)
         for name in PLANARISED if options.meshes else ():
             if options.only in f"planarise {name}":
                 runner.planarise((options.meshes / name).resolve())

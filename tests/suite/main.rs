@@ -8,6 +8,7 @@ mod diagnostics;
 mod gate;
 mod golden;
 mod laws;
+mod nest;
 mod peers;
 mod planarise;
 mod plane;

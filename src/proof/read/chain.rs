@@ -1,12 +1,15 @@
 //! Single lines and arcs joined into closed contours where their ends meet.
 
 use crate::geometry::{Point2, Vertex};
-use crate::proof::read::{Curve, Drawing, is_cut};
+use crate::proof::read::{Curve, Drawing};
 use crate::tolerance::{JOINED_MM, NO_LENGTH_MM};
 use std::collections::BTreeMap;
 
-/// Joins the open curves of cut layers; marks stay as they were drawn.
-pub(super) fn joined(mut drawing: Drawing) -> Drawing {
+/// Joins the open curves of some layers; others stay as they were drawn.
+pub(in crate::proof) fn joined(
+    mut drawing: Drawing,
+    which: impl Fn(&str) -> bool,
+) -> Drawing {
     let is_finite = |v: &Vertex| (v.point.coords.sum() + v.bulge).is_finite();
     let all = drawing.curves.len();
     drawing.curves.retain(|curve| curve.vertices.iter().all(is_finite));
@@ -18,7 +21,7 @@ pub(super) fn joined(mut drawing: Drawing) -> Drawing {
         .curves
         .into_iter()
         .filter(|curve| curve.vertices.len() > 1)
-        .partition(|curve| is_cut(curve.layer) && !curve.closed);
+        .partition(|curve| which(curve.layer) && !curve.closed);
     drawing.curves = whole;
     let mut layers: BTreeMap<&'static str, Vec<Curve>> = BTreeMap::new();
     for curve in open {

@@ -5,7 +5,7 @@
 //! mirrors the entity in x).
 
 use crate::geometry::{Point2, Vertex, trig};
-use crate::proof::read::{Curve, Drawing, DrawingError, chain, layer_named};
+use crate::proof::read::{Curve, Drawing, DrawingError, chain, is_cut, layer_named};
 use crate::units::Unit;
 
 /// Reads the lines of a DXF file, in millimetres.
@@ -31,7 +31,7 @@ pub(in crate::proof) fn read_dxf(bytes: &[u8]) -> Result<Drawing, DrawingError> 
         }
         drawing.add(&entity, &vertices, scale);
     }
-    Ok(chain::joined(drawing))
+    Ok(chain::joined(drawing, is_cut))
 }
 
 /// A group code with its value.

@@ -16,6 +16,7 @@ use miette::Diagnostic;
 use std::collections::BTreeMap;
 use thiserror::Error;
 
+pub(super) use chain::joined;
 pub(super) use dxf::read_dxf;
 pub(super) use pdf::read_pdf;
 pub(super) use svg::read_svg;

@@ -4,7 +4,7 @@
 //! matrix are followed.
 
 use crate::geometry::{Point2, Vertex};
-use crate::proof::read::{Curve, Drawing, DrawingError, Pen, chain};
+use crate::proof::read::{Curve, Drawing, DrawingError, Pen, chain, is_cut};
 use crate::proof::read::{layer_coloured, layer_named};
 use lopdf::content::{Content, Operation};
 use lopdf::{Document, Object, ObjectId};
@@ -40,7 +40,7 @@ fn drawing(document: &Document, page: ObjectId) -> Result<Drawing, lopdf::Error>
     for operation in &content.operations {
         reader.follow(operation);
     }
-    Ok(chain::joined(reader.drawing))
+    Ok(chain::joined(reader.drawing, is_cut))
 }
 
 fn media_box(document: &Document, page: ObjectId) -> Option<[f64; 2]> {

@@ -4,7 +4,7 @@
 //! user units they are; without a unit a user unit is 1/96 inch.
 
 use crate::geometry::{Point2, Vertex};
-use crate::proof::read::{Curve, Drawing, DrawingError, Pen, chain};
+use crate::proof::read::{Curve, Drawing, DrawingError, Pen, chain, is_cut};
 use crate::proof::read::{layer_coloured, layer_named};
 use crate::tolerance::NO_LENGTH_MM;
 use nalgebra::Matrix3;
@@ -28,7 +28,7 @@ pub(in crate::proof) fn read_svg(bytes: &[u8]) -> Result<Drawing, DrawingError> 
     for child in root.children() {
         drawing.walk(child, page, "", 0);
     }
-    Ok(chain::joined(drawing))
+    Ok(chain::joined(drawing, is_cut))
 }
 
 /// From user units to millimetres with y upward, and whether the file gives a unit.

@@ -1,0 +1,121 @@
+//! Parts from DXF and SVG drawings (contract §5).
+
+use crate::cli::nest_input::{NestInputError, Order, Task};
+use crate::diagnostic::{Finding, Located, Place};
+use crate::nest::{Layout, Shape, Turns};
+use crate::proof::Drawn;
+use crate::report::Lines;
+use crate::sheets::{Operation, Path};
+use crate::tolerance::ARC_SAGITTA_MM;
+use miette::Diagnostic;
+use thiserror::Error;
+
+/// What a drawing leaves open.
+#[derive(Debug, Clone, PartialEq, Error, Diagnostic)]
+#[allow(missing_docs, reason = "the messages say it")]
+enum DrawingNote {
+    #[error("the drawing does not say its unit; it is read so that it measures {size}")]
+    #[diagnostic(
+        code(read::drawing_unit),
+        severity(Warning),
+        help(
+            "compare the size; set the units in the program that drew it and save again"
+        )
+    )]
+    Unit { size: String },
+
+    #[error("{count} {kind} on the drawing cannot be read and will be missing")]
+    #[diagnostic(
+        code(read::drawing_unread),
+        severity(Warning),
+        help("turn it into lines (explode blocks and text, splines to polylines)")
+    )]
+    Unread { kind: String, count: usize },
+
+    #[error(
+        "{count} lines lie on no part and are left out; one begins at {x:.2}, {y:.2}"
+    )]
+    #[diagnostic(
+        code(read::drawing_stray),
+        severity(Warning),
+        help("close the outline they belong to; ends may be 0.01 mm apart")
+    )]
+    Stray { count: usize, x: f64, y: f64 },
+}
+
+impl Located for DrawingNote {
+    fn place(&self) -> Place {
+        Place::default()
+    }
+}
+
+/// The parts of a drawing, `P1` and on, and what it leaves open.
+///
+/// # Errors
+/// [`NestInputError`] if there is no closed line in it.
+pub(super) fn order(
+    drawn: &Drawn,
+    name: &str,
+) -> Result<(Order, Vec<Finding>), NestInputError> {
+    if drawn.parts.is_empty() {
+        let what = "there is no closed line on the drawing".to_owned();
+        return Err(NestInputError::Bad { name: name.to_owned(), what });
+    }
+    let mut lines = Lines::new();
+    let mut shapes = Vec::new();
+    for (k, part) in drawn.parts.iter().enumerate() {
+        let name = format!("P{}", k + 1);
+        let holes = part.holes.iter();
+        shapes.push(Shape {
+            name: name.clone(),
+            outline: part.outline.enclosing_polygon(ARC_SAGITTA_MM),
+            holes: holes.clone().map(|hole| hole.flattened(ARC_SAGITTA_MM)).collect(),
+            turns: Turns::Free,
+        });
+        let holes = holes.map(|hole| (Operation::CutInner, Path::Closed(hole.clone())));
+        let outline = (Operation::CutOuter, Path::Closed(part.outline.clone()));
+        let all = part.marks.iter().cloned().chain(holes).chain([outline]);
+        lines.insert(name, all.collect());
+    }
+    let notes = notes(drawn, &shapes).into_iter().map(Finding::from).collect();
+    let name = name.to_owned();
+    let (stock, layout) = (Vec::new(), Layout::default());
+    let order = Order {
+        name,
+        task: Task::Sheets,
+        lines,
+        shapes,
+        stock,
+        holes_closed: false,
+        layout,
+    };
+    Ok((order, notes))
+}
+
+fn notes(drawn: &Drawn, shapes: &[Shape]) -> Vec<DrawingNote> {
+    let mut notes = Vec::new();
+    if !drawn.says_unit {
+        let points = || shapes.iter().flat_map(|shape| &shape.outline);
+        let low =
+            points().fold([f64::INFINITY; 2], |l, p| [l[0].min(p.x), l[1].min(p.y)]);
+        let high =
+            points().fold([f64::NEG_INFINITY; 2], |h, p| [h[0].max(p.x), h[1].max(p.y)]);
+        let size = format!("{:.1} x {:.1} mm", high[0] - low[0], high[1] - low[1]);
+        notes.push(DrawingNote::Unit { size });
+    }
+    let unread = drawn.unread.iter();
+    notes.extend(
+        unread.map(|(kind, count)| DrawingNote::Unread {
+            kind: kind.clone(),
+            count: *count,
+        }),
+    );
+    if let Some(first) = drawn.stray.first() {
+        notes.push(DrawingNote::Stray {
+            count: drawn.stray.len(),
+            x: first.x,
+            y: first.y,
+        });
+    }
+    notes
+}

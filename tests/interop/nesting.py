@@ -1,0 +1,102 @@
+"""Drawings by other programs through `finwright nest`: made with ezdxf and by hand, read back with ezdxf and shapely."""
+
+from __future__ import annotations
+
+import json
+import math
+from pathlib import Path
+
+import ezdxf
+from ezdxf import units
+from shapely.geometry import LineString, Polygon
+
+INCH = 25.4
+
+
+def drawing(path: Path) -> None:
+    """In inches: a stadium with a round hole and an engraved line, and a plate of four single lines on layer 0."""
+    document = ezdxf.new("R2010")
+    document.units = units.IN
+    space = document.modelspace()
+    space.add_lwpolyline([(0, 0, 0), (4, 0, 1), (4, 2, 0), (0, 2, 1)], format="xyb", close=True, dxfattribs={"layer": "Outlines"})
+    space.add_circle((1, 1), 0.5, dxfattribs={"layer": "Outlines"})
+    space.add_line((2.5, 1), (3.5, 1), dxfattribs={"layer": "notes"})
+    corners = [(6, 0), (8, 0), (8, 3), (6, 3)]
+    for a, b in zip(corners, corners[1:] + corners[:1]):
+        space.add_line(a, b)
+    document.saveas(path)
+
+
+def svg(path: Path) -> None:
+    """In millimetres by viewBox, with curves and a transform."""
+    path.write_text(
+        '<svg xmlns="http://www.w3.org/2000/svg" width="200mm" height="100mm" viewBox="0 0 400 200">'
+        '<g transform="translate(20 20) scale(2)" fill="none" stroke="black">'
+        '<path d="M 0 0 H 40 A 10 10 0 0 1 40 20 H 0 Z"/><rect x="5" y="5" width="10" height="10"/></g></svg>'
+    )
+
+
+def area(vertices: list[tuple[float, float, float]]) -> float:
+    """Of a closed line with bulges: the polygon and the segments of circles on its sides."""
+    total = Polygon([(x, y) for x, y, _ in vertices]).area if len(vertices) > 2 else 0.0
+    orientation = sum(a[0] * b[1] - b[0] * a[1] for a, b in zip(vertices, vertices[1:] + vertices[:1]))
+    for a, b in zip(vertices, vertices[1:] + vertices[:1]):
+        angle = 4 * math.atan(a[2])
+        if angle:
+            radius = math.dist(a[:2], b[:2]) / 2 / math.sin(abs(angle) / 2)
+            segment = radius**2 / 2 * (abs(angle) - math.sin(abs(angle)))
+            total += segment if angle * (orientation or angle) > 0 else -segment
+    return total
+
+
+def areas(dxf: Path) -> tuple[list[float], int, list[float]]:
+    """Areas of closed lines in mm², how many have arcs, and lengths of open lines."""
+    document = ezdxf.readfile(dxf)
+    assert document.units == units.MM, "not in millimetres"
+    closed, curved, opened = [], 0, []
+    for entity in document.modelspace():
+        if entity.dxf.layer == "SHEET":
+            continue
+        vertices = [(v.dxf.location.x, v.dxf.location.y, v.dxf.get("bulge", 0.0)) for v in entity.vertices]
+        if entity.is_closed:
+            closed.append(area(vertices))
+            curved += any(v[2] for v in vertices)
+        else:
+            opened.append(LineString([v[:2] for v in vertices]).length)
+    return sorted(closed), curved, opened
+
+
+def near(found: list[float], wanted: list[float], slack: float) -> bool:
+    return len(found) == len(wanted) and all(math.isclose(a, b, rel_tol=slack) for a, b in zip(found, sorted(wanted)))
+
+
+def checked(runner, layouts) -> None:
+    """Runs the cases; `layouts` judges a layout.json by shapely."""
+    dxf, drawn = runner.scratch / "parts.dxf", runner.scratch / "parts.svg"
+    drawing(dxf)
+    svg(drawn)
+    stadium = (4 * 2 + math.pi) * INCH**2
+    circle, plate = math.pi * 0.25 * INCH**2, 6 * INCH**2
+    rounded = 40 * 20 + math.pi * 50
+    cases = [
+        ("parts.json", [], None),
+        (str(dxf), ["--sheet", "400x300"], ([stadium, circle, plate], 2, [INCH])),
+        (str(drawn), ["--sheet", "200x100"], ([rounded, 100.0], 1, [])),
+    ]
+    for source, words, wanted in cases:
+        source = source if wanted else str(Path(__file__).resolve().parent.parent.parent / "fixtures" / source)
+        folder = f"nest-{Path(source).suffix[1:]}"
+        ran = runner.finwright("nest", source, *words, "-o", folder, "-q")
+        if ran.returncode != 0:
+            runner.note(f"nest {source}", False, ran.stderr.strip()[-300:])
+            continue
+        layout = runner.scratch / folder / "layout.json"
+        faults = list(layouts(json.loads(layout.read_text())))
+        if wanted:
+            closed, curved, opened = areas(runner.scratch / folder / "sheets" / "sheet-01.dxf")
+            if not near(closed, wanted[0], 1e-7) or curved != wanted[1] or not near(opened, wanted[2], 1e-6):
+                faults.append(f"drawn: {closed}, {curved} with arcs, open {opened}; wanted {wanted}")
+        said = runner.finwright("nest", "--check", str(layout), "-q")
+        if said.returncode != 0:
+            faults.append(f"--check: {said.stderr.strip()[-200:]}")
+        runner.note(f"nest {Path(source).name}", not faults, "; ".join(faults[:3]))
