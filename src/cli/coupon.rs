@@ -77,13 +77,13 @@ fn make(args: &CouponArgs, template: &Template, voice: Voice) -> Result<End, Fai
         named(("parts.csv".to_owned(), bill.into_bytes())),
     ];
     let approved = approve_loose(&job.sheets, &job.findings);
-    let end = draw(&job, approved.as_ref(), &mut files, &mut manifest, voice);
+    let drawn = draw(&job, approved.as_ref(), &mut files, &mut manifest, voice);
     jobdir::write(&dir, &files)?;
     if args.json {
         print(&format!("{manifest}\n"));
     }
     voice.say(&format!("{} pieces in {}", job.parts.len(), dir.display()));
-    Ok(end)
+    Ok(drawn.end)
 }
 
 fn set(

@@ -3,6 +3,7 @@
 mod advise;
 mod args;
 mod coupon;
+mod embedded;
 mod input;
 mod jobdir;
 mod nest;

@@ -1,10 +1,9 @@
 //! The commands, and the only place that writes files.
 
 use crate::cli::advise;
-use crate::cli::args::{
-    Cli, Command, EffortLevel, ExampleAction, InputArgs, MakeArgs, TemplateAction,
-};
+use crate::cli::args::{Cli, Command, EffortLevel, InputArgs, MakeArgs};
 use crate::cli::coupon;
+use crate::cli::embedded;
 use crate::cli::input::{self, Input, InputError};
 use crate::cli::jobdir::{self, JobDirError, JobFile};
 use crate::cli::nest;
@@ -12,18 +11,17 @@ use crate::cli::planarise;
 use crate::cli::rigidity;
 use crate::cli::show::{self, Terminal, Voice};
 use crate::cli::verify::{self, VerifyError, prove_before_writing};
-use crate::design::examples;
 use crate::diagnostic::{Finding, Place, passes};
 use crate::export;
 use crate::gate::Approved;
 use crate::job::{self, Interrupted, Job, Order};
 use crate::joint::Joint;
 use crate::nest::Effort;
-use crate::report::{self, Source};
+use crate::proof::Proof;
+use crate::report::{self, Page, Source};
 use crate::sheets::Sheet;
 use crate::structure::{Structure, write_json};
-use crate::template::{self, Template};
-use crate::tolerance::Tolerance;
+use crate::template::Template;
 use crate::watch::Watch;
 use clap::CommandFactory;
 use miette::Diagnostic;
@@ -97,8 +95,8 @@ pub fn run(cli: Cli) -> ExitCode {
         Command::Verify(args) => verify::run(&args, voice),
         Command::Planarise(args) => planarise::run(&args, voice),
         Command::Nest(args) => nest::run(&args, voice),
-        Command::Template { action } => templates(action),
-        Command::Example { action } => example(action),
+        Command::Template { action } => embedded::templates(action),
+        Command::Example { action } => embedded::example(action),
         Command::Completions { shell } => {
             let mut text = Vec::new();
             clap_complete::generate(shell, &mut Cli::command(), "finwright", &mut text);
@@ -158,6 +156,7 @@ struct Ordered {
     job: Job,
     input: Input,
     template: Template,
+    template_sha256: String,
     terminal: Terminal,
 }
 
@@ -183,7 +182,8 @@ fn ordered(
     terminal.finish();
     let mut job = job?;
     job.findings.splice(0..0, input.findings.drain(..));
-    Ok(Ordered { job, input, template, terminal })
+    let template_sha256 = input::sha256(template.source.as_bytes());
+    Ok(Ordered { job, input, template, template_sha256, terminal })
 }
 
 fn effort(args: &InputArgs) -> Effort {
@@ -223,10 +223,20 @@ fn make(args: &MakeArgs, voice: Voice) -> Result<End, Failure> {
     let name = job.structure.as_ref().map(Structure::name).unwrap_or_default();
     let dir =
         args.output.clone().unwrap_or_else(|| Path::new("out").join(folder_name(name)));
-    let mut manifest = ordered.manifest(&args.input);
+    let source = ordered.source(&args.input);
+    let mut manifest = report::manifest(job, &source);
     let mut files = ordered.files(&manifest);
     let approved = job.approved(args.input.joint, &ordered.template).ok();
-    let end = draw(job, approved.as_ref(), &mut files, &mut manifest, voice);
+    let Drawn { end, proof } =
+        draw(job, approved.as_ref(), &mut files, &mut manifest, voice);
+    let proof = proof.as_ref();
+    let is_approved = end == End::Done;
+    let page = Page { job, source: &source, manifest: &manifest, proof, is_approved };
+    files.push(named(("report.html".to_owned(), report::page(&page).into_bytes())));
+    if is_approved {
+        let guide = report::guide(job, &source);
+        files.extend(guide.map(|pdf| named(("assembly.pdf".to_owned(), pdf))));
+    }
     ordered.terminal.finish();
     if ordered.terminal.stopped() {
         return Err(Failure::Interrupted);
@@ -244,6 +254,14 @@ fn make(args: &MakeArgs, voice: Voice) -> Result<End, Failure> {
     Ok(end)
 }
 
+/// What became of the files for the laser.
+pub(super) struct Drawn {
+    /// Whether they are there.
+    pub end: End,
+    /// What they prove, if they could be read.
+    pub proof: Option<Proof>,
+}
+
 /// Adds the files for the laser if nothing forbids it and they can be proved, else stamped
 /// pictures.
 pub(super) fn draw(
@@ -252,19 +270,21 @@ pub(super) fn draw(
     files: &mut Vec<JobFile>,
     manifest: &mut serde_json::Value,
     voice: Voice,
-) -> End {
+) -> Drawn {
+    let mut proof = None;
     if let Some(sheets) = approved.filter(|sheets| !sheets.get().is_empty()) {
         let kept = files.len();
         files.extend(export::cut_files(sheets).into_iter().map(named));
-        let found = prove_before_writing(files, manifest);
+        let (proved, found) = prove_before_writing(files, manifest);
         voice.findings(&found);
+        proof = proved;
         if passes(&found) {
-            return End::Done;
+            return Drawn { end: End::Done, proof };
         }
         files.truncate(kept);
     }
     files.extend(export::stamped_previews(&job.sheets).into_iter().map(named));
-    End::Refused
+    Drawn { end: End::Refused, proof }
 }
 
 /// A name that can be a folder.
@@ -298,17 +318,16 @@ fn summary(job: &Job, end: End, dir: &Path) -> String {
 }
 
 impl Ordered {
-    fn manifest(&self, args: &InputArgs) -> serde_json::Value {
-        let source = Source {
+    fn source<'a>(&'a self, args: &'a InputArgs) -> Source<'a> {
+        Source {
             input: &self.input.file,
             input_sha256: &self.input.sha256,
             template: &self.template,
-            template_sha256: &input::sha256(self.template.source.as_bytes()),
+            template_sha256: &self.template_sha256,
             seed: args.seed,
             scale: &args.scale.text,
             joint: args.joint,
-        };
-        report::manifest(&self.job, &source)
+        }
     }
 
     /// The files that stand in every job directory.
@@ -346,53 +365,4 @@ fn check(args: &InputArgs, voice: Voice) -> Result<End, Failure> {
 
 pub(super) fn check_json(findings: &[Finding]) -> serde_json::Value {
     serde_json::json!({"passes": passes(findings), "findings": findings})
-}
-
-fn templates(action: TemplateAction) -> Result<End, Failure> {
-    match action {
-        TemplateAction::List => {
-            let line = |name: &&str| {
-                let read =
-                    template::embedded(name).and_then(|s| template::read(s, name).ok());
-                let about =
-                    read.map(|template| template.material.name).unwrap_or_default();
-                format!("{name:14} {about}\n")
-            };
-            Ok(print(&template::names().iter().map(line).collect::<String>()))
-        }
-        TemplateAction::Show { name } => match template::embedded(&name) {
-            Some(source) => Ok(print(source)),
-            None => Err(InputError::BadTemplate(template::unknown_name(&name)).into()),
-        },
-        TemplateAction::Check { file } => {
-            input::template(&file.to_string_lossy())?;
-            let _ = writeln!(std::io::stderr(), "{}: nothing wrong", file.display());
-            Ok(End::Done)
-        }
-    }
-}
-
-fn example(action: ExampleAction) -> Result<End, Failure> {
-    match action {
-        ExampleAction::List => {
-            let line = |e: &examples::Example| format!("{:14} {}\n", e.name, e.about);
-            Ok(print(&examples::ALL.iter().map(line).collect::<String>()))
-        }
-        ExampleAction::Write { name, output } => {
-            let Some(text) = example_text(&name) else {
-                return Err(input::unknown_structure(&name).into());
-            };
-            let Some(path) = output else { return Ok(print(&text)) };
-            std::fs::write(&path, text)
-                .map_err(|source| JobDirError::Disk { path, source })?;
-            Ok(End::Done)
-        }
-    }
-}
-
-/// An embedded structure as JSON.
-fn example_text(name: &str) -> Option<String> {
-    let example = examples::named(name)?;
-    let (structure, _) = Structure::new((example.draft)(), &Tolerance::default()).ok()?;
-    Some(write_json(&structure))
 }

@@ -93,17 +93,18 @@ fn verify(dir: &Path) -> Result<Proof, VerifyError> {
 pub(super) fn prove_before_writing(
     files: &mut [JobFile],
     manifest: &mut Value,
-) -> Vec<Finding> {
+) -> (Option<Proof>, Vec<Finding>) {
     let read = files.iter().filter(|file| !file.path.ends_with(".png"));
     let all = read.map(|file| (file.path.clone(), file.bytes.clone()));
-    let findings = match prove(&all.collect()) {
+    let (proof, findings) = match prove(&all.collect()) {
         Ok(proof) => {
             manifest["proof"] = proof.summary();
-            proof.findings
+            let findings = proof.findings.clone();
+            (Some(proof), findings)
         }
         Err(error) => {
             let (spot, reason) = (Spot::file("job.json"), error.to_string());
-            vec![ProofFinding::Unreadable { spot, reason }.into()]
+            (None, vec![ProofFinding::Unreadable { spot, reason }.into()])
         }
     };
     if let Some(listed) = manifest["findings"].as_array_mut() {
@@ -113,7 +114,7 @@ pub(super) fn prove_before_writing(
         let pretty = serde_json::to_string_pretty(manifest).unwrap_or_default() + "\n";
         file.bytes = pretty.into_bytes();
     }
-    findings
+    (proof, findings)
 }
 
 /// What is said at the end.

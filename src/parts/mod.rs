@@ -4,6 +4,7 @@
 //! them, splices what is too long for the stock and writes on each part what the maker
 //! needs. Kerf is not its business, nor where parts lie on a sheet.
 
+mod bend;
 mod coupon;
 mod finding;
 mod fit;
@@ -19,6 +20,7 @@ mod splice;
 mod strength;
 mod unfold;
 
+pub use bend::bends;
 pub use coupon::{Fitted, Mark as CouponMark, coupon};
 pub use finding::PartFinding;
 pub use fit::Fit;

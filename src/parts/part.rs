@@ -20,6 +20,16 @@ pub struct Part {
     pub body: Body,
 }
 
+impl Part {
+    /// Length and height of its shape, mm.
+    pub fn extent(&self) -> [f64; 2] {
+        let points = || self.region.outline.vertices.iter().map(|vertex| vertex.point);
+        let low = points().reduce(|a, b| a.inf(&b)).unwrap_or_default();
+        let high = points().fold(low, |a, b| a.sup(&b));
+        [high.x - low.x, high.y - low.y]
+    }
+}
+
 /// What a part is in the structure.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Body {

@@ -1,6 +1,7 @@
 //! Whether a strip holds: material behind and between its slits, and how tightly it bends.
 
 use crate::geometry::{Point2, Vector2};
+use crate::parts::bend;
 use crate::parts::finding::PartFinding;
 use crate::parts::fit::Fit;
 use crate::parts::joint::{Opening, Slit};
@@ -75,9 +76,8 @@ impl Slitted<'_> {
         let axes = &self.strip.axes;
         let length = |fin: usize| (axes[fin + 1].foot - axes[fin].foot).norm();
         let slit = self.slits.get(&place).map_or(0.0, Slit::width);
-        let run = (length(place - 1) + length(place)) / 2.0 - slit;
         let fold = self.strip.folds[place - 1].angle;
-        let radius_mm = run.max(0.0) / fold.abs();
+        let radius_mm = bend::radius(&[length(place - 1), length(place)], slit, fold);
         let ratio = radius_mm / self.fit.thickness;
         let (part, node) = (self.name.to_owned(), axes[place].node);
         let fold_deg = fold.to_degrees();

@@ -187,7 +187,7 @@ fn key(fact: &ProofFinding) -> (String, Vec<String>, Vec<usize>, Option<[i64; 2]
 
 fn is_proved(path: &str) -> bool {
     let drawing = [".dxf", ".svg", ".pdf"].iter().any(|end| path.ends_with(end));
-    path == "structure.json" || drawing
+    path == "structure.json" || path.starts_with("sheets/") && drawing
 }
 
 fn read_manifest(files: &JobFiles) -> Result<Manifest, ProofError> {

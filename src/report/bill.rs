@@ -2,7 +2,7 @@
 
 use crate::geometry::Contour;
 use crate::job::Job;
-use crate::parts::{Body, Part};
+use crate::parts::Body;
 use std::collections::BTreeMap;
 use std::fmt::Write;
 
@@ -21,7 +21,7 @@ pub fn bill(job: &Job, material: &str) -> String {
     );
     for (index, part) in job.parts.iter().enumerate() {
         let sheet = sheets.get(&index).copied().unwrap_or_default();
-        let [length, height] = extent(part);
+        let [length, height] = part.extent();
         let cut: f64 = part.region.contours().map(Contour::length).sum();
         let (kind, axes) = match &part.body {
             Body::Strip(body) => ("strip", body.axes.as_slice()),
@@ -40,15 +40,6 @@ pub fn bill(job: &Job, material: &str) -> String {
         );
     }
     text
-}
-
-fn extent(part: &Part) -> [f64; 2] {
-    let vertices = || part.region.outline.vertices.iter().map(|v| v.point);
-    let span = |of: fn(&crate::geometry::Point2) -> f64| {
-        let high = vertices().map(|p| of(&p)).fold(f64::NEG_INFINITY, f64::max);
-        high - vertices().map(|p| of(&p)).fold(f64::INFINITY, f64::min)
-    };
-    [span(|p| p.x), span(|p| p.y)]
 }
 
 /// A CSV field.

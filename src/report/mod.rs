@@ -1,9 +1,16 @@
-//! What a job says about itself: the manifest and the bill of parts.
+//! What a job is, for people and for programs: the page, the manifest, the bill of parts.
 
 mod bill;
+mod fins;
+mod guide;
 mod layout;
 mod manifest;
+mod page;
+mod picture;
+mod steps;
 
 pub use bill::bill;
+pub use guide::guide;
 pub use layout::{Lines, Nested, layout_json, layout_sheets};
 pub use manifest::{Source, manifest};
+pub use page::{Page, page};

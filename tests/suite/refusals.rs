@@ -76,7 +76,8 @@ fn a_structure_that_cannot_be_cut_gets_stamped_pictures_only() {
     let (code, _) = make("fixtures/bad/parts/web_too_thin.json", &job);
     assert_eq!(code, Some(3));
     assert_eq!(entries(place.path()), ["job"]);
-    assert_eq!(entries(&job), ["job.json", "parts.csv", "preview", "structure.json"]);
+    let files = ["job.json", "parts.csv", "preview", "report.html", "structure.json"];
+    assert_eq!(entries(&job), files);
     assert!(entries(&job.join("preview")).iter().all(|name| name.ends_with(".png")));
 }
 

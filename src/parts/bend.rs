@@ -1,0 +1,28 @@
+//! How tightly a strip bends at a node: its fold spread over the fins beside it, less the
+//! slit (fabrication notes §4.6).
+
+use crate::parts::joint::Slit;
+use crate::parts::part::StripBody;
+use crate::parts::unfold::FlatAxis;
+
+/// Radius of the bend, mm, from the lengths of the fins beside the node, the width of its
+/// slit and its fold; infinite where nothing folds.
+pub(super) fn radius(lengths: &[f64], slit: f64, fold: f64) -> f64 {
+    let mean = lengths.iter().sum::<f64>() / lengths.len().max(1) as f64;
+    (mean - slit).max(0.0) / fold.abs()
+}
+
+/// The node and the radius of each bend of a strip's part, mm.
+pub fn bends(body: &StripBody) -> Vec<(usize, f64)> {
+    let length = |pair: &[FlatAxis]| (pair[1].foot - pair[0].foot).norm();
+    let bend = |place: usize| {
+        let node = body.axes[place].node;
+        let fold = body.folds.iter().find(|fold| fold.node == node)?;
+        let beside = place.saturating_sub(1)..(place + 2).min(body.axes.len());
+        let lengths: Vec<f64> = body.axes[beside].windows(2).map(length).collect();
+        let slit = body.slits.iter().find(|(slit, _)| slit.node == node);
+        let slit = slit.map_or(0.0, |(slit, _)| Slit::width(slit));
+        (!lengths.is_empty()).then(|| (node, radius(&lengths, slit, fold.angle)))
+    };
+    (0..body.axes.len()).filter_map(bend).collect()
+}

@@ -1,0 +1,245 @@
+//! `assembly.pdf`: the steps of assembly on paper, one figure each, parts named as engraved.
+
+mod leaf;
+
+use crate::geometry::{Point2, Vector2};
+use crate::job::Job;
+use crate::report::fins;
+use crate::report::manifest::Source;
+use crate::report::picture::Picture;
+use crate::report::steps::{Step, steps};
+use leaf::{BOLD, FONTS, Leaf, MARGIN, PLAIN, POINTS_PER_MM, SIZE, Set, lines};
+use pdf_writer::{Finish, Name, Pdf, Rect, Ref};
+
+/// Figures beside and below each other on a page.
+const GRID: [usize; 2] = [2, 3];
+
+/// Between figures, mm.
+const GAP: f64 = 8.0;
+
+/// Lines of text below a figure; a step that goes onto more parts than fit says how many.
+const LINES: usize = 7;
+
+/// From line to line, as a share of the size of the letters.
+const LEADING: f64 = 1.3;
+
+const NEW: [f32; 3] = [1.0, 0.62, 0.25];
+const NEW_EDGE: [f32; 3] = [0.72, 0.3, 0.0];
+const STANDING: [f32; 3] = [0.93, 0.95, 0.96];
+
+/// The guide of a job; `None` if nothing is to be assembled.
+pub fn guide(job: &Job, source: &Source) -> Option<Vec<u8>> {
+    let structure = job.structure.as_ref()?;
+    let steps = steps(job, source.template);
+    if steps.is_empty() {
+        return None;
+    }
+    let room = cell();
+    let picture = Picture::new(job, structure, room.x);
+    // As large as the figure's place allows in height as well.
+    let height = room.y - f64::from(LINES as u32 + 1) * PLAIN.size * LEADING;
+    let width = room.x * (height / picture.size[1]).min(1.0);
+    let picture = Picture::new(job, structure, width);
+    let mut leaves = vec![title(job, source, steps.len())];
+    let numbered: Vec<(usize, &Step)> = steps.iter().enumerate().collect();
+    for page in numbered.chunks(GRID[0] * GRID[1]) {
+        let mut leaf = Leaf::new();
+        for (place, (k, step)) in page.iter().enumerate() {
+            let standing: Vec<usize> = steps[..*k].iter().map(|step| step.part).collect();
+            let figure = Figure { job, picture: &picture, standing: &standing };
+            figure.draw(&mut leaf, corner(place), (*k, step));
+        }
+        leaves.push(leaf);
+    }
+    leaves.extend(list(job));
+    Some(bound(leaves))
+}
+
+/// Size of a figure's place.
+fn cell() -> Vector2 {
+    let [columns, rows] = GRID.map(|count| count as f64);
+    let room = |all: f64, count: f64| (all - 2.0 * MARGIN - (count - 1.0) * GAP) / count;
+    Vector2::new(room(SIZE[0], columns), room(SIZE[1], rows))
+}
+
+/// Upper left corner of a figure's place.
+fn corner(place: usize) -> Point2 {
+    let (column, row) = ((place % GRID[0]) as f64, (place / GRID[0]) as f64);
+    let step = cell() + Vector2::new(GAP, GAP);
+    Point2::new(MARGIN + column * step.x, SIZE[1] - MARGIN - row * step.y)
+}
+
+struct Figure<'a> {
+    job: &'a Job,
+    picture: &'a Picture,
+    standing: &'a [usize],
+}
+
+impl Figure<'_> {
+    fn draw(&self, leaf: &mut Leaf, at: Point2, (k, step): (usize, &Step)) {
+        let part = &self.job.parts[step.part];
+        let head = format!("{}   {}", k + 1, part.id);
+        leaf.text(at - Vector2::new(0.0, BOLD.size), BOLD, &head);
+        let down = 1.6 * BOLD.size + self.picture.size[1];
+        let origin = at.coords - Vector2::new(0.0, down);
+        let panels = || self.picture.panels.iter();
+        let place = |corners: &[Point2; 4]| corners.map(|p| p + origin);
+        for panel in panels() {
+            if panel.part == step.part {
+                leaf.shape(&place(&panel.corners), NEW);
+            } else if self.standing.contains(&panel.part) {
+                leaf.shape(&place(&panel.corners), STANDING);
+            }
+        }
+        // What stands in front hides it: its edges show through.
+        for panel in panels().filter(|panel| panel.part == step.part) {
+            leaf.edge(&place(&panel.corners), NEW_EDGE);
+        }
+        let mut line = Point2::from(origin);
+        for text in self.words(step) {
+            line.y -= PLAIN.size * LEADING;
+            leaf.text(line, PLAIN, &text);
+        }
+    }
+
+    /// What is written below the figure.
+    fn words(&self, step: &Step) -> Vec<String> {
+        let onto: Vec<String> =
+            step.onto.iter().map(|(node, part)| format!("{part} at {node}")).collect();
+        let mut text = step.words.clone();
+        if !onto.is_empty() {
+            text += &format!(" Onto {}.", onto.join(", "));
+        }
+        let mut lines = lines(&text, PLAIN, cell().x);
+        if lines.len() > LINES {
+            lines.truncate(LINES);
+            if let Some(last) = lines.last_mut() {
+                *last = format!("... {} nodes in all, see the report", onto.len());
+            }
+        }
+        lines
+    }
+}
+
+/// What it is and how to read it.
+fn title(job: &Job, source: &Source, steps: usize) -> Leaf {
+    let mut leaf = Leaf::new();
+    let name = job.structure.as_ref().map_or("", |structure| structure.name());
+    let size = job.structure.as_ref().map(|s| s.size_text()).unwrap_or_default();
+    let material = &source.template.material;
+    let head = Set { size: 9.0, bold: true };
+    let mut at = Point2::new(MARGIN, SIZE[1] - MARGIN - head.size);
+    leaf.text(at, head, name);
+    let facts = [
+        format!("{size}, scale {}", source.scale),
+        format!(
+            "Parts: {}. Sheets: {} of {}.",
+            job.parts.len(),
+            job.sheets.len(),
+            material.name
+        ),
+        job.verdict.as_ref().map(|verdict| verdict.summary()).unwrap_or_default(),
+    ];
+    let how = [
+        format!(
+            "The parts go in one after the other in {steps} steps. Each figure shows in grey what \
+             stands already and in orange the part that goes in; where something stands in front of \
+             it, its edges show through. Every part is engraved with its name."
+        ),
+        "The engraved face looks along travel × axis: read the part's name upright and the \
+         nodes run from left to right, their axes upward."
+            .to_owned(),
+        "\"S03 at 12\" means: at node 12 the slit that is open below slides over the slit of S03 \
+         that is open above."
+            .to_owned(),
+        "Zip means: start at one end and push the strip down node after node, letting the free end \
+         stand off. Do not force it flat in one go."
+            .to_owned(),
+        "Put nothing under stress that was cleaned with alcohol or solvent: acrylic crazes. Work \
+         on a flat board, and dry-fit before you glue."
+            .to_owned(),
+    ];
+    at.y -= 6.0;
+    for text in facts.iter().chain(&how) {
+        at.y -= PLAIN.size * 0.7;
+        for line in lines(text, PLAIN, SIZE[0] - 2.0 * MARGIN) {
+            at.y -= PLAIN.size * LEADING;
+            leaf.text(at, PLAIN, &line);
+        }
+    }
+    whole(job, &mut leaf);
+    leaf
+}
+
+/// The finished structure at the foot of the title.
+fn whole(job: &Job, leaf: &mut Leaf) {
+    let Some(structure) = &job.structure else { return };
+    let room = Vector2::new(SIZE[0] - 2.0 * MARGIN, SIZE[1] / 2.0);
+    let [width, height] = Picture::new(job, structure, room.x).size;
+    let picture = Picture::new(job, structure, width * (room.y / height).min(1.0));
+    for panel in &picture.panels {
+        let corners = panel.corners.map(|p| p + Vector2::new(MARGIN, MARGIN));
+        leaf.shape(&corners, STANDING);
+    }
+}
+
+/// The parts with their sizes and sheets.
+fn list(job: &Job) -> Vec<Leaf> {
+    const COLUMNS: [f64; 5] = [0.0, 20.0, 50.0, 80.0, 105.0];
+    let sheets = fins::sheets(job);
+    let rows = job.parts.iter().enumerate().map(|(index, part)| {
+        let [length, height] = part.extent();
+        let sheet =
+            sheets.get(&index).map_or(String::new(), |sheet| (sheet + 1).to_string());
+        let step = (index + 1).to_string();
+        [part.id.clone(), format!("{length:.1}"), format!("{height:.1}"), sheet, step]
+    });
+    let rows: Vec<[String; 5]> = rows.collect();
+    let heads = ["part", "length mm", "height mm", "sheet", "step"].map(str::to_owned);
+    let step = PLAIN.size * LEADING;
+    let room = ((SIZE[1] - 2.0 * MARGIN) / step) as usize - 2;
+    let pages = rows.chunks(room).map(|rows| {
+        let mut leaf = Leaf::new();
+        let mut y = SIZE[1] - MARGIN - BOLD.size;
+        for (k, row) in std::iter::once(&heads).chain(rows).enumerate() {
+            let set = if k == 0 { BOLD } else { PLAIN };
+            for (cell, x) in row.iter().zip(COLUMNS) {
+                leaf.text(Point2::new(MARGIN + x, y), set, cell);
+            }
+            y -= step;
+        }
+        leaf
+    });
+    pages.collect()
+}
+
+/// Pages as a PDF.
+fn bound(leaves: Vec<Leaf>) -> Vec<u8> {
+    let [catalog, pages] = [1, 2].map(Ref::new);
+    let fonts = [3, 4].map(Ref::new);
+    let mut pdf = Pdf::new();
+    pdf.catalog(catalog).pages(pages);
+    let ids = (5..).step_by(2).map(Ref::new).take(leaves.len());
+    pdf.pages(pages).kids(ids.clone()).count(leaves.len() as i32);
+    for (id, (_, name)) in fonts.into_iter().zip(FONTS) {
+        let mut font = pdf.type1_font(id);
+        font.base_font(Name(name)).encoding_predefined(Name(b"WinAnsiEncoding"));
+    }
+    let [width, height] = SIZE.map(|mm| (mm * POINTS_PER_MM) as f32);
+    for (leaf, id) in leaves.into_iter().zip(ids) {
+        let contents = Ref::new(id.get() + 1);
+        let mut page = pdf.page(id);
+        page.parent(pages).contents(contents);
+        page.media_box(Rect::new(0.0, 0.0, width, height));
+        let mut resources = page.resources();
+        let mut names = resources.fonts();
+        for (font, (name, _)) in fonts.into_iter().zip(FONTS) {
+            names.pair(Name(name), font);
+        }
+        names.finish();
+        resources.finish();
+        page.finish();
+        pdf.stream(contents, &leaf.bytes());
+    }
+    pdf.finish()
+}

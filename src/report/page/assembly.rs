@@ -1,0 +1,91 @@
+//! The steps of assembly with a picture each.
+
+use crate::job::Job;
+use crate::report::page::html;
+use crate::report::picture::Picture;
+use crate::report::steps::Step;
+use std::fmt::Write;
+
+/// Width of a picture, in its own units.
+const WIDTH: f64 = 400.0;
+
+/// Up to this many parts each picture shows all that stands; beyond it the pages would be
+/// mostly pictures, so that only what the part goes onto is shown.
+const ALL_SHOWN: usize = 200;
+
+/// The steps as figures; their pictures share one drawing of each part.
+pub(super) fn steps(job: &Job, steps: &[Step]) -> String {
+    let Some(structure) = &job.structure else { return String::new() };
+    if steps.is_empty() {
+        return "<p>There are no parts to assemble.</p>\n".to_owned();
+    }
+    let picture = Picture::new(job, structure, WIDTH);
+    let figures = steps.iter().enumerate().map(|(k, step)| {
+        let shown = shown(job, steps, k);
+        figure(job, &picture, step, (k, &shown))
+    });
+    drawings(job, &picture) + &figures.collect::<String>()
+}
+
+/// The parts that are shown as standing at a step.
+fn shown(job: &Job, steps: &[Step], k: usize) -> Vec<usize> {
+    let before = steps[..k].iter().map(|step| step.part);
+    if steps.len() <= ALL_SHOWN {
+        return before.collect();
+    }
+    let onto =
+        |part: &usize| steps[k].onto.iter().any(|(_, id)| *id == job.parts[*part].id);
+    before.filter(onto).collect()
+}
+
+/// Each part once, as a path.
+fn drawings(job: &Job, picture: &Picture) -> String {
+    let mut paths = vec![String::new(); job.parts.len()];
+    for panel in &picture.panels {
+        let at =
+            panel.corners.map(|p| format!("{:.1} {:.1}", p.x, picture.size[1] - p.y));
+        paths[panel.part] += &format!("M{}Z", at.join("L"));
+    }
+    let mut text = String::from("<svg class=\"defs\" aria-hidden=\"true\"><defs>\n");
+    for (index, path) in paths.iter().enumerate() {
+        // Writing to a string cannot fail.
+        let _ = writeln!(text, "<path id=\"p{index}\" d=\"{path}\"/>");
+    }
+    text + "</defs></svg>\n"
+}
+
+fn figure(
+    job: &Job,
+    picture: &Picture,
+    step: &Step,
+    (k, shown): (usize, &[usize]),
+) -> String {
+    let [width, height] = picture.size;
+    let id = &job.parts[step.part].id;
+    let used = |part: &usize| format!("<use href=\"#p{part}\"/>");
+    let onto =
+        step.onto.iter().map(|(node, part)| format!("{} at {node}", html::part(part)));
+    let onto: Vec<String> = onto.collect();
+    let onto = match onto.is_empty() {
+        true => String::new(),
+        false => format!("<br>Onto {}.", onto.join(", ")),
+    };
+    let tight = if step.is_tight { " class=\"tight\"" } else { "" };
+    let pad = 4.0;
+    format!(
+        "<figure class=\"step\"><svg viewBox=\"{:.0} {:.0} {:.0} {:.0}\" role=\"img\" \
+         aria-label=\"step {}: {} goes in\"><g class=\"done\">{}</g><g class=\"new\">{}</g></svg>\
+         <figcaption><b>{}.</b> {} <span{tight}>{}</span>{onto}</figcaption></figure>\n",
+        -pad,
+        -pad,
+        width + 2.0 * pad,
+        height + 2.0 * pad,
+        k + 1,
+        html::text(id),
+        shown.iter().map(used).collect::<String>(),
+        used(&step.part),
+        k + 1,
+        html::part(id),
+        html::text(&step.words),
+    )
+}

@@ -1,0 +1,147 @@
+//! The structure as numbers for the 3D view of the page.
+
+use crate::geometry::{Point3, Vector3};
+use crate::job::Job;
+use crate::joint::Joint;
+use crate::parts::{Body, bends};
+use crate::report::fins;
+use crate::rigidity::Paper;
+use crate::structure::{Structure, planarity};
+use crate::template::Template;
+use serde_json::{Value, json};
+use std::collections::BTreeMap;
+
+/// What the page's script needs to know.
+pub(super) fn scene(
+    job: &Job,
+    structure: &Structure,
+    joint: Joint,
+    template: &Template,
+) -> Value {
+    let parts = fins::parts(job);
+    let paper = job.verdict.as_ref().and_then(|verdict| verdict.paper());
+    let gaps = paper.map(discrepancies);
+    let rows = Rows { structure, paper, gaps, bends: tightness(job, template) };
+    let bodies = bodies(structure, joint);
+    let fins = structure.fins().iter().zip(&bodies).map(|(&fin, body)| {
+        let part = parts.get(&fin).copied();
+        rows.fin(fin, *body, part)
+    });
+    let sheets = fins::sheets(job);
+    let part = |(index, part): (usize, &crate::parts::Part)| json!({"id": part.id, "sheet": sheets.get(&index)});
+    json!({
+        "nodes": structure.nodes().iter().map(|node| {
+            points(&[node.bottom(), node.top()])
+        }).collect::<Vec<_>>(),
+        "fixed": structure.fixed(),
+        "fins": fins.collect::<Vec<_>>(),
+        "motion": rows.motion(&bodies),
+        "parts": job.parts.iter().enumerate().map(part).collect::<Vec<_>>(),
+        "planarity_limit": template.gate.planarity_limit_percent,
+        "bend_model": template.bend.model,
+    })
+}
+
+/// The largest discrepancy of each body at each node.
+fn discrepancies(paper: &Paper) -> BTreeMap<(usize, usize), f64> {
+    let mut all: BTreeMap<(usize, usize), f64> = BTreeMap::new();
+    for d in &paper.discrepancies {
+        for body in d.bodies {
+            let most = all.entry((d.node, body)).or_default();
+            *most = most.max(d.value);
+        }
+    }
+    all
+}
+
+/// Thickness over bend radius by part and node.
+fn tightness(job: &Job, template: &Template) -> BTreeMap<(usize, usize), f64> {
+    let mut all = BTreeMap::new();
+    for (index, part) in job.parts.iter().enumerate() {
+        let Body::Strip(body) = &part.body else { continue };
+        let thickness = template.material.thickness_mm;
+        all.extend(bends(body).into_iter().map(|(n, r)| ((index, n), thickness / r)));
+    }
+    all
+}
+
+/// The body of the model that each fin belongs to: a strip, or itself.
+fn bodies(structure: &Structure, joint: Joint) -> Vec<Option<usize>> {
+    if joint != Joint::Lap {
+        return (0..structure.fins().len()).map(Some).collect();
+    }
+    let mut of = BTreeMap::new();
+    for (index, strip) in structure.strips().iter().enumerate() {
+        of.extend(strip.fins().map(|[i, j]| ([i.min(j), i.max(j)], index)));
+    }
+    structure.fins().iter().map(|fin| of.get(fin).copied()).collect()
+}
+
+struct Rows<'a> {
+    structure: &'a Structure,
+    paper: Option<&'a Paper>,
+    /// Largest discrepancy by node and body.
+    gaps: Option<BTreeMap<(usize, usize), f64>>,
+    bends: BTreeMap<(usize, usize), f64>,
+}
+
+impl Rows<'_> {
+    /// `[i, j, part, planarity %, discrepancy at i and j, tightness of the bend at i and j]`.
+    fn fin(&self, [i, j]: [usize; 2], body: Option<usize>, part: Option<usize>) -> Value {
+        let (off, diameter) = planarity(&self.structure.corners([i, j]));
+        let bend = |node| {
+            let key = part.map(|part| (part, node));
+            key.and_then(|key| self.bends.get(&key)).copied().map_or(0.0, four)
+        };
+        let gap = |node| {
+            let key = body.map(|body| (node, body));
+            let all = self.gaps.as_ref();
+            all.map(|gaps| key.and_then(|k| gaps.get(&k)).copied().map_or(0.0, four))
+        };
+        let part = part.map_or(-1, |part| part as i64);
+        json!([
+            i,
+            j,
+            part,
+            four(100.0 * off / diameter),
+            gap(i),
+            gap(j),
+            bend(i),
+            bend(j)
+        ])
+    }
+
+    /// How far the corners of each fin go in the softest motion, the fastest by 1: bottom
+    /// and top of its first node, bottom and top of its second.
+    fn motion(&self, bodies: &[Option<usize>]) -> Option<Vec<Value>> {
+        let paper = self.paper?;
+        let motion = paper.motions.first()?;
+        let velocity = |body: usize, p: Point3| {
+            let x = motion.twists[body];
+            let spin = Vector3::new(x[0], x[1], x[2]);
+            spin.cross(&(p.coords * paper.scale)) + Vector3::new(x[3], x[4], x[5])
+        };
+        let corners = self.structure.fins().iter().zip(bodies).map(|(&[i, j], body)| {
+            let [a, b] = [i, j].map(|node| &self.structure.nodes()[node]);
+            let corners = [a.bottom(), a.top(), b.bottom(), b.top()];
+            corners.map(|p| body.map_or_else(Vector3::zeros, |body| velocity(body, p)))
+        });
+        let corners: Vec<[Vector3; 4]> = corners.collect();
+        let speeds = corners.iter().flatten().map(Vector3::norm);
+        let fastest = speeds.fold(0.0, f64::max);
+        let moved = |fin: &[Vector3; 4]| {
+            let lengths = fin.iter().flat_map(|v| [v.x, v.y, v.z]);
+            json!(lengths.map(|x| four(x / fastest)).collect::<Vec<_>>())
+        };
+        (fastest > 0.0).then(|| corners.iter().map(moved).collect())
+    }
+}
+
+fn points(points: &[Point3]) -> Vec<f64> {
+    points.iter().flat_map(|p| [p.x, p.y, p.z]).map(|x| (x * 1e3).round() / 1e3).collect()
+}
+
+/// To four digits: a picture needs no more.
+fn four(value: f64) -> f64 {
+    format!("{value:.3e}").parse().unwrap_or(0.0)
+}

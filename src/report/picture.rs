@@ -1,0 +1,82 @@
+//! The structure seen from one side in parallel projection, for pictures of steps.
+
+use crate::geometry::{Point2, Vector3, trig};
+use crate::job::Job;
+use crate::report::fins;
+use crate::structure::Structure;
+
+/// Where pictures are seen from: radians around and up.
+const FROM: [f64; 2] = [-1.1, 0.6];
+
+/// A fin as it is seen.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Panel {
+    /// Index of its part.
+    pub part: usize,
+    /// Its corners: x to the right, y up.
+    pub corners: [Point2; 4],
+}
+
+/// All fins that are on parts, the farthest first.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Picture {
+    /// Far to near.
+    pub panels: Vec<Panel>,
+    /// Extent of the picture.
+    pub size: [f64; 2],
+}
+
+impl Picture {
+    /// The picture of a job, as wide as `width`, its lower left corner in the origin.
+    pub(super) fn new(job: &Job, structure: &Structure, width: f64) -> Self {
+        let view = View::new();
+        let mut panels: Vec<(f64, Panel)> = Vec::new();
+        for (part, made) in job.parts.iter().enumerate() {
+            for fin in fins::of_part(made) {
+                let corners = structure.corners(fin).map(|p| p.coords);
+                let depth = corners.iter().map(|p| p.dot(&view.toward)).sum();
+                panels.push((
+                    depth,
+                    Panel { part, corners: corners.map(|p| view.flat(&p)) },
+                ));
+            }
+        }
+        panels.sort_by(|a, b| a.0.total_cmp(&b.0));
+        let mut panels: Vec<Panel> = panels.into_iter().map(|(_, panel)| panel).collect();
+        let size = fitted(&mut panels, width);
+        Self { panels, size }
+    }
+}
+
+/// Moves and scales panels to a width; their extent then.
+fn fitted(panels: &mut [Panel], width: f64) -> [f64; 2] {
+    let points = || panels.iter().flat_map(|panel| panel.corners);
+    let Some(low) = points().reduce(|a, b| a.inf(&b)) else { return [width, 0.0] };
+    let high = points().fold(low, |a, b| a.sup(&b));
+    let scale = width / (high.x - low.x).max(f64::MIN_POSITIVE);
+    for corner in panels.iter_mut().flat_map(|panel| &mut panel.corners) {
+        *corner = Point2::from((*corner - low) * scale);
+    }
+    [width, (high.y - low.y) * scale]
+}
+
+struct View {
+    right: Vector3,
+    up: Vector3,
+    toward: Vector3,
+}
+
+impl View {
+    fn new() -> Self {
+        let [around, high] = FROM;
+        let (sin, cos) = (trig::sin(around), trig::cos(around));
+        let right = Vector3::new(-sin, cos, 0.0);
+        let flat = Vector3::new(cos, sin, 0.0) * trig::cos(high);
+        let toward = flat + Vector3::z() * trig::sin(high);
+        Self { right, up: toward.cross(&right), toward }
+    }
+
+    fn flat(&self, p: &Vector3) -> Point2 {
+        Point2::new(p.dot(&self.right), p.dot(&self.up))
+    }
+}
