@@ -115,10 +115,11 @@ pub const JOINED_MM: f64 = 0.01;
 /// part is looked for, mm.
 pub const SAME_SHAPE_MM: f64 = 0.02;
 
-/// How far a drawn line may be off where it should be, mm: slits, corners, axes.
+/// How far a drawn line may be off where it should be unless the template says otherwise, mm:
+/// slits, corners, axes, kerf.
 pub const PROOF_LIMIT_MM: f64 = 0.01;
 
-/// How far folds may be off, degrees.
+/// How far folds may be off unless the template says otherwise, degrees.
 pub const PROOF_LIMIT_DEG: f64 = 0.001;
 
 /// How far a corner, wall or hole is searched from where it should be, mm.

@@ -1,6 +1,7 @@
 //! What the proof takes from `job.json` (contract §3): which parts there should be and where.
 
 use crate::geometry::Point2;
+use crate::proof::Limits;
 use serde::{Deserialize, Deserializer};
 use std::collections::BTreeMap;
 
@@ -20,6 +21,9 @@ pub(super) struct Manifest {
 /// What the files were when they were written.
 #[derive(Deserialize, Default)]
 pub(super) struct Written {
+    /// How far they may be off.
+    #[serde(default)]
+    pub limits: Limits,
     /// SHA-256 by path.
     #[serde(default)]
     pub files: BTreeMap<String, String>,

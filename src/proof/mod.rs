@@ -33,11 +33,12 @@ pub use read::DrawingError;
 
 use crate::diagnostic::{Finding, Place};
 use crate::structure::{AxisRule, Structure, read_json};
-use crate::tolerance::{PROOF_LIMIT_DEG, PROOF_LIMIT_MM, SAME_SHAPE_MM, Tolerance};
+use crate::tolerance::{PROOF_LIMIT_DEG, PROOF_LIMIT_MM, Tolerance};
 use figures::micro;
 use lines::differences;
 use manifest::Manifest;
 use miette::Diagnostic;
+use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
 use sha2::{Digest, Sha256};
 use sheets::{Files, Read};
@@ -73,9 +74,27 @@ pub enum ProofError {
     Refused,
 }
 
+/// How far what is measured may be off; `job.json` carries them from the template.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
+pub struct Limits {
+    /// Axes, corners of fins, slits, kerf, mm.
+    pub axes_and_slits_mm: f64,
+    /// Folds, degrees.
+    pub folds_deg: f64,
+}
+
+impl Default for Limits {
+    fn default() -> Self {
+        Self { axes_and_slits_mm: PROOF_LIMIT_MM, folds_deg: PROOF_LIMIT_DEG }
+    }
+}
+
 /// What the files of a job prove.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Proof {
+    /// What was allowed.
+    pub limits: Limits,
     /// The worst figures of each format.
     pub worst: Vec<Worst>,
     /// Nodes, as measured in the DXF files.
@@ -94,11 +113,7 @@ impl Proof {
     /// Limits and the worst figures, for `job.json`.
     pub fn summary(&self) -> Value {
         json!({
-            "limits": {
-                "axes_and_slits_mm": PROOF_LIMIT_MM,
-                "folds_deg": PROOF_LIMIT_DEG,
-                "outline_mm": SAME_SHAPE_MM,
-            },
+            "limits": self.limits,
             "worst": self.worst,
             "files": self.files,
         })
@@ -130,7 +145,7 @@ pub fn prove(files: &JobFiles) -> Result<Proof, ProofError> {
     let manifest = read_manifest(files)?;
     let structure = read_structure(files, &manifest)?;
     let mut facts = Vec::new();
-    let mut proof = Proof::default();
+    let mut proof = Proof { limits: manifest.proof.limits, ..Proof::default() };
     for (path, bytes) in files.iter().filter(|(path, _)| is_proved(path)) {
         let digest: String =
             Sha256::digest(bytes).iter().map(|byte| format!("{byte:02x}")).collect();

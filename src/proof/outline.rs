@@ -28,11 +28,12 @@ pub(super) fn deviations(
     let mut off: Vec<(f64, Point2)> = out.chain(back).collect();
     off.sort_by(|a, b| b.0.total_cmp(&a.0));
     let worst = off.first().map_or(0.0, |first| first.0);
+    let limit_mm = SAME_SHAPE_MM.max(read.manifest.proof.limits.axes_and_slits_mm);
     let mut said: Vec<Point2> = told.to_vec();
     let mut findings = Vec::new();
     for (by_mm, p) in off {
         let at = found.motion.apply(p);
-        if by_mm <= SAME_SHAPE_MM || findings.len() == FEW {
+        if by_mm <= limit_mm || findings.len() == FEW {
             break;
         }
         if said.iter().all(|known| (known - at).norm() > ONE_PLACE) {

@@ -8,7 +8,7 @@ use crate::proof::manifest::Manifest;
 use crate::proof::matching::{Drawn, Found, Matching, Shape, places};
 use crate::proof::read::Drawing;
 use crate::proof::shape::bounds;
-use crate::tolerance::{ARC_SAGITTA_MM, IN_PLACE_MM, PROOF_LIMIT_MM, SAME_SCALE};
+use crate::tolerance::{ARC_SAGITTA_MM, IN_PLACE_MM, SAME_SCALE};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// The files of one format.
@@ -179,9 +179,10 @@ impl<'a> Read<'a> {
     /// Kerfs that are not the listed one: together, if they are equal all over a file.
     fn kerfs(&self) -> Vec<ProofFinding> {
         let listed_mm = self.matching.kerf;
+        let limit_mm = self.manifest.proof.limits.axes_and_slits_mm;
         let mut wrong: BTreeMap<(String, i64), Vec<&Found>> = BTreeMap::new();
         for found in &self.found {
-            if (found.kerf - listed_mm).abs() > PROOF_LIMIT_MM {
+            if (found.kerf - listed_mm).abs() > limit_mm {
                 let key =
                     (self.file(found).to_owned(), (found.kerf * 1e3).round() as i64);
                 wrong.entry(key).or_default().push(found);
@@ -199,7 +200,7 @@ impl<'a> Read<'a> {
     /// Spacing and margin on one sheet, for the stock of its size.
     fn layout(&self, sheet: usize) -> Vec<ProofFinding> {
         let listed = &self.manifest.sheets[sheet];
-        let same = |a: f64, b: f64| (a - b).abs() < PROOF_LIMIT_MM;
+        let same = |a: f64, b: f64| (a - b).abs() < IN_PLACE_MM;
         let stock = self.manifest.sheet_stock.iter();
         let stock = stock
             .filter(|s| same(s.width, listed.width) && same(s.height, listed.height));

@@ -1,6 +1,7 @@
 //! The strips of one format's files: measured, refolded, compared with the structure.
 
 use crate::geometry::Point2;
+use crate::proof::Limits;
 use crate::proof::figures::{NodeFigure, SlitFigure, Worst, micro};
 use crate::proof::finding::{ProofFinding, Spot};
 use crate::proof::fit;
@@ -9,7 +10,6 @@ use crate::proof::measure::{FlatAxis, Measured, Notch, measure};
 use crate::proof::refold::{Meetings, folded, placed, targets};
 use crate::proof::sheets::Read;
 use crate::structure::Structure;
-use crate::tolerance::{PROOF_LIMIT_DEG, PROOF_LIMIT_MM};
 use std::collections::BTreeMap;
 
 /// A strip found in the files.
@@ -115,6 +115,10 @@ impl<'a> Strips<'a> {
         (Self { structure, manifest: read.manifest, drawn, slit }, findings)
     }
 
+    fn limits(&self) -> &Limits {
+        &self.manifest.proof.limits
+    }
+
     /// The strip that comes into a slit, if it was found.
     fn partner(&self, index: usize, node: usize) -> Option<(usize, usize)> {
         self.slit.get(&node)?.iter().find(|(other, _)| *other != index).copied()
@@ -189,10 +193,10 @@ impl<'a> Strips<'a> {
         let clearance_mm = material.clearance;
         let mut findings = Vec::new();
         let here = || spot.clone();
-        if figure.off_mm.abs() > PROOF_LIMIT_MM {
+        if figure.off_mm.abs() > self.limits().axes_and_slits_mm {
             findings.push(ProofFinding::SlitMoved { spot: here(), by_mm: figure.off_mm });
         }
-        if play_mm < clearance_mm - PROOF_LIMIT_MM {
+        if play_mm < clearance_mm - self.limits().axes_and_slits_mm {
             let spot = here();
             findings.push(ProofFinding::SlitNarrow {
                 spot,
@@ -200,7 +204,7 @@ impl<'a> Strips<'a> {
                 play_mm,
                 clearance_mm,
             });
-        } else if play_mm > clearance_mm + PROOF_LIMIT_MM {
+        } else if play_mm > clearance_mm + self.limits().axes_and_slits_mm {
             let spot = here();
             findings.push(ProofFinding::SlitWide {
                 spot,
@@ -213,9 +217,11 @@ impl<'a> Strips<'a> {
         let deeper = notch.depth - slit.depth;
         let lost_round = material.kerf.abs() / 2.0;
         let reach = figure.reach_mm.unwrap_or(0.0);
-        if reach < 0.0 && deeper < -PROOF_LIMIT_MM {
+        if reach < 0.0 && deeper < -self.limits().axes_and_slits_mm {
             findings.push(ProofFinding::SlitShort { spot: here(), short_mm: -reach });
-        } else if deeper < -PROOF_LIMIT_MM || deeper > PROOF_LIMIT_MM + lost_round {
+        } else if deeper < -self.limits().axes_and_slits_mm
+            || deeper > self.limits().axes_and_slits_mm + lost_round
+        {
             let (depth_mm, listed_mm) = (figure.depth_mm, slit.depth);
             findings.push(ProofFinding::SlitDepth { spot: here(), depth_mm, listed_mm });
         }
@@ -263,7 +269,7 @@ impl<'a> Strips<'a> {
             let listed = strip.folds.iter().find(|fold| fold.node == node);
             let listed_deg = listed.map_or(0.0, |fold| fold.angle_deg);
             let spot = Spot::file("job.json").part(id).node(node);
-            ((listed_deg - needed_deg).abs() > PROOF_LIMIT_DEG)
+            ((listed_deg - needed_deg).abs() > self.limits().folds_deg)
                 .then_some(ProofFinding::FoldWrong { spot, listed_deg, needed_deg })
         });
         wrong.collect()
@@ -284,7 +290,7 @@ impl<'a> Strips<'a> {
                 .map(|(i, j)| (flat[i] - flat[j]).norm() - (space[i] - space[j]).norm())
                 .fold(0.0, |worst: f64, off| worst.max(off.abs()));
             worst.fin_mm = worst.fin_mm.max(micro(by_mm));
-            if by_mm > PROOF_LIMIT_MM {
+            if by_mm > self.limits().axes_and_slits_mm {
                 let [node, to] = [place - 1, place].map(|k| drawn.strip.nodes[k]);
                 let spot = (drawn.spot)(nalgebra::center(&a[0], &b[1])).node(node);
                 findings.push(ProofFinding::FinDiffers { spot, to, by_mm });
@@ -340,11 +346,8 @@ impl<'a> Strips<'a> {
             .into_iter()
             .fold(f64::INFINITY, f64::min);
         let spot = (drawn.spot)(bottom).node(node);
-        (distance_mm < needed_mm - PROOF_LIMIT_MM).then_some(ProofFinding::EndInTheWay {
-            spot,
-            distance_mm,
-            needed_mm,
-        })
+        (distance_mm < needed_mm - self.limits().axes_and_slits_mm)
+            .then_some(ProofFinding::EndInTheWay { spot, distance_mm, needed_mm })
     }
 
     /// Where the axes of all strips come to lie in space.
@@ -368,7 +371,7 @@ impl<'a> Strips<'a> {
                 meeting.parts.into_iter().map(|(id, _)| id).collect();
             worst.node_gap_mm = worst.node_gap_mm.max(gap_mm);
             worst.node_off_mm = worst.node_off_mm.max(off_mm);
-            if gap_mm.max(off_mm) > PROOF_LIMIT_MM {
+            if gap_mm.max(off_mm) > self.limits().axes_and_slits_mm {
                 let spot =
                     Spot { parts: parts.clone(), ..Spot::file("job.json").node(node) };
                 findings.push(ProofFinding::NodeGap { spot, gap_mm: gap_mm.max(off_mm) });

@@ -6,6 +6,7 @@ use crate::job::Job;
 use crate::joint::Joint;
 use crate::nest::{NestedSheet, Stock};
 use crate::parts::{self, Body, FlatAxis, Opening, Part, Slit, StripBody};
+use crate::proof::Limits;
 use crate::sheets::{Operation, Path, Sheet};
 use crate::template::Template;
 use crate::tolerance::ARC_SAGITTA_MM;
@@ -53,11 +54,17 @@ pub fn manifest(job: &Job, source: &Source) -> Value {
         "verdict": job.verdict.as_ref().map(|verdict| verdict.json(source.joint, false)),
         "accepted_flexible": job.accepted_flexible,
         "findings": job.findings,
+        "proof": {"limits": limits(source.template)},
         "parts": job.parts.iter().map(part).collect::<Vec<_>>(),
         "sheets": sheets(job),
         "assembly": assembly(job, source.template),
         "totals": totals(job, source.template),
     })
+}
+
+fn limits(template: &Template) -> Limits {
+    let gate = &template.gate;
+    Limits { axes_and_slits_mm: gate.proof_mm, folds_deg: gate.proof_deg }
 }
 
 /// Lengths and degrees as written: to 1e-6 mm and 1e-7 degrees, never `-0`.

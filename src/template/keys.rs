@@ -86,6 +86,8 @@ const GATE: &[Key] = &[
     may("planarity_limit_percent", Kind::Number(0.0, 5.0)),
     may("crossing_warn_deg", Kind::Number(0.0, 90.0)),
     may("crossing_least_deg", Kind::Number(5.0, 90.0)),
+    may("proof_mm", Kind::Number(0.001, 1.0)),
+    may("proof_deg", Kind::Number(0.0001, 5.0)),
 ];
 const TABLES: &[(&str, &[Key])] = &[
     ("material", MATERIAL),

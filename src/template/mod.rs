@@ -10,6 +10,7 @@ mod keys;
 pub use error::{Fault, TemplateErrors};
 pub(crate) use keys::nearest;
 
+use crate::tolerance::{PROOF_LIMIT_DEG, PROOF_LIMIT_MM};
 use serde::Deserialize;
 
 /// What a job is cut from, on and for.
@@ -144,6 +145,8 @@ pub struct Gate {
     pub planarity_limit_percent: f64,
     pub crossing_warn_deg: f64,
     pub crossing_least_deg: f64,
+    pub proof_mm: f64,
+    pub proof_deg: f64,
 }
 
 impl Default for Gate {
@@ -155,6 +158,8 @@ impl Default for Gate {
             planarity_limit_percent: 0.1,
             crossing_warn_deg: 45.0,
             crossing_least_deg: 30.0,
+            proof_mm: PROOF_LIMIT_MM,
+            proof_deg: PROOF_LIMIT_DEG,
         }
     }
 }

@@ -340,6 +340,18 @@ fn a_slit_moved_by_half_a_millimetre_is_found() {
     is_near(finding, mouth, 2.0);
 }
 
+/// Limits come from the template by way of job.json.
+#[test]
+fn what_the_limits_of_the_template_allow_is_no_fault() {
+    let mut planting = Planting::new();
+    assert_eq!(planting.manifest["proof"]["limits"]["axes_and_slits_mm"], 0.01);
+    planting.bend_slit(4, 3, |_| 0.05);
+    planting.manifest["proof"]["limits"]["axes_and_slits_mm"] = 0.1.into();
+    let proof = planting.proof();
+    assert!(passes(&proof.findings), "{:#?}", proof.findings);
+    assert!((proof.worst[0].slit_off_mm - 0.05).abs() < 1e-3);
+}
+
 #[test]
 fn a_slit_too_narrow_is_found() {
     let mut planting = Planting::new();
