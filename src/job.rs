@@ -35,6 +35,8 @@ pub struct Order<'a> {
 pub struct Job {
     /// Everything found on the way.
     pub findings: Vec<Finding>,
+    /// Names of the parts that are made again; empty if all are made.
+    pub only: Vec<String>,
     /// Why the structure may be flexible, as ordered.
     pub accepted_flexible: Option<String>,
     /// The structure as built; `None` if the draft was none.
@@ -106,7 +108,7 @@ pub fn coupon(
 }
 
 /// Nests the parts of a job and says what the laser does.
-fn on_sheets(
+pub(crate) fn on_sheets(
     mut job: Job,
     template: &Template,
     name: String,

@@ -46,6 +46,7 @@ pub mod lettering;
 pub mod nest;
 pub mod parts;
 pub mod proof;
+pub mod replacement;
 pub mod report;
 pub mod rigidity;
 pub mod sheets;

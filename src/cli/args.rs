@@ -90,7 +90,9 @@ Examples:
   finwright make
       the embedded vault in 3 mm cast acrylic, into out/vault
   finwright make roof.obj --units m --scale 1:50 --axes 0,0,1 -t card-1.5
-      a mesh drawn in metres, as a 1:50 card model with upright node axes";
+      a mesh drawn in metres, as a 1:50 card model with upright node axes
+  finwright make --only S07,S12
+      two parts again, on a sheet of their own";
 
 const CHECK_HELP: &str = "\
 Example:
@@ -180,6 +182,10 @@ pub struct MakeArgs {
     /// Folder of the job [default: out/<name>]
     #[arg(short, long, value_name = "DIR")]
     pub output: Option<PathBuf>,
+
+    /// Only these parts again, on a sheet of their own [default DIR: out/<name>-only]
+    #[arg(long, value_name = "S07,S12", value_delimiter = ',')]
+    pub only: Vec<String>,
 
     /// The structure is flexible on purpose; the reason goes on record and on every sheet
     #[arg(long, value_name = "REASON")]

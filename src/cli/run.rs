@@ -18,6 +18,7 @@ use crate::job::{self, Interrupted, Job, Order};
 use crate::joint::Joint;
 use crate::nest::Effort;
 use crate::proof::Proof;
+use crate::replacement;
 use crate::report::{self, Page, Source};
 use crate::sheets::Sheet;
 use crate::structure::{Structure, write_json};
@@ -219,10 +220,13 @@ fn make(args: &MakeArgs, voice: Voice) -> Result<End, Failure> {
         return Ok(end);
     }
     ordered.terminal.resume("export");
+    ordered.keep(args)?;
     let job = &ordered.job;
     let name = job.structure.as_ref().map(Structure::name).unwrap_or_default();
-    let dir =
-        args.output.clone().unwrap_or_else(|| Path::new("out").join(folder_name(name)));
+    let dir = args
+        .output
+        .clone()
+        .unwrap_or_else(|| Path::new("out").join(folder_name(name, job)));
     let source = ordered.source(&args.input);
     let mut manifest = report::manifest(job, &source);
     let mut files = ordered.files(&manifest);
@@ -233,7 +237,7 @@ fn make(args: &MakeArgs, voice: Voice) -> Result<End, Failure> {
     let is_approved = end == End::Done;
     let page = Page { job, source: &source, manifest: &manifest, proof, is_approved };
     files.push(named(("report.html".to_owned(), report::page(&page).into_bytes())));
-    if is_approved {
+    if is_approved && job.only.is_empty() {
         let guide = report::guide(job, &source);
         files.extend(guide.map(|pdf| named(("assembly.pdf".to_owned(), pdf))));
     }
@@ -288,13 +292,15 @@ pub(super) fn draw(
 }
 
 /// A name that can be a folder.
-fn folder_name(name: &str) -> String {
+fn folder_name(name: &str, job: &Job) -> String {
     // Most disks take 255 bytes; a character may have four.
     const LONGEST: usize = 50;
     let safe = |c: char| if c.is_alphanumeric() || "-_ .".contains(c) { c } else { '-' };
     let name: String = name.chars().map(safe).take(LONGEST).collect();
     let name = name.trim_matches(['.', ' ']);
-    if name.is_empty() { "job".to_owned() } else { name.to_owned() }
+    let name = if name.is_empty() { "job" } else { name };
+    let end = if job.only.is_empty() { "" } else { "-only" };
+    format!("{name}{end}")
 }
 
 pub(super) fn named((path, bytes): (String, Vec<u8>)) -> JobFile {
@@ -318,6 +324,22 @@ fn summary(job: &Job, end: End, dir: &Path) -> String {
 }
 
 impl Ordered {
+    /// Keeps the parts that were asked for, on sheets of their own.
+    fn keep(&mut self, args: &MakeArgs) -> Result<(), Failure> {
+        if args.only.is_empty() || self.job.parts.is_empty() {
+            return Ok(());
+        }
+        let names = replacement::named(&self.job, &args.only).map_err(|error| {
+            let findings = || vec![Finding::new(&error, Place::default())];
+            let json = args.input.json.then(findings);
+            Failure::Said(complain(&error, &error.to_string(), json))
+        })?;
+        let (job, effort) = (std::mem::take(&mut self.job), effort(&args.input));
+        self.job =
+            replacement::only(job, names, &self.template, &effort, &mut self.terminal)?;
+        Ok(())
+    }
+
     fn source<'a>(&'a self, args: &'a InputArgs) -> Source<'a> {
         Source {
             input: &self.input.file,

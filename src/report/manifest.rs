@@ -52,6 +52,7 @@ pub fn manifest(job: &Job, source: &Source) -> Value {
         },
         "sheet_stock": job.stock.iter().map(stock).collect::<Vec<_>>(),
         "verdict": job.verdict.as_ref().map(|verdict| verdict.json(source.joint, false)),
+        "only": if job.only.is_empty() { Value::Null } else { json!(job.only) },
         "accepted_flexible": job.accepted_flexible,
         "findings": job.findings,
         "proof": {"limits": limits(source.template)},

@@ -24,6 +24,7 @@ const ORDER: &[&str] = &[
     "proof",
     "job",
     "advice",
+    "replacement",
     "report",
     "cli",
 ];

@@ -15,6 +15,7 @@ mod plane;
 mod proof;
 mod refusals;
 mod regressions;
+mod replacement;
 mod report;
 mod spoilt;
 mod structures;
