@@ -4,16 +4,18 @@ use crate::diagnostic::{Finding, Severity};
 use crate::gate::{self, Approved, Judged, Shut};
 use crate::geometry::{Contour, Point2};
 use crate::joint::Joint;
-use crate::nest::{self, Effort, Layout, NestError, Shape, Stock, Turns};
-use crate::parts::{self, Fit, FoldMarks, Making, Marking, Part};
+use crate::nest::{self, Effort, Layout, NestError, Shape, Stock};
+use crate::order::{self, Profile, Wanted};
+use crate::parts::{self, Making, Part};
 use crate::rigidity::{
     self, FEW_STEPS, Fingerprint, Model, Pairing, Question, RigidityFinding, Stopped,
     SwayLimit, Verdict,
 };
-use crate::sheets::{self, Frame, Kerf, Laying, Sheet};
+use crate::setting::{fit, frame, marking, stock, tolerance, turns};
+use crate::sheets::{self, Kerf, Laying, Sheet};
 use crate::structure::{Draft, Structure};
 use crate::template::Template;
-use crate::tolerance::{ARC_SAGITTA_MM, Tolerance};
+use crate::tolerance::ARC_SAGITTA_MM;
 use crate::watch::Watch;
 
 /// What a job is made from.
@@ -51,6 +53,8 @@ pub struct Job {
     pub layout: Layout,
     /// What the laser does.
     pub sheets: Vec<Sheet>,
+    /// The same for the service or machine that the template names.
+    pub order: Option<order::Order>,
 }
 
 /// The work was stopped from outside.
@@ -127,6 +131,7 @@ pub(crate) fn on_sheets(
         kerf,
         frame: template.output.frame.then_some(&frame),
     });
+    job.order(template);
     Ok(job)
 }
 
@@ -150,6 +155,28 @@ fn lay(
 }
 
 impl Job {
+    /// Makes the files' sheets for the service that the template names, if it names one.
+    fn order(&mut self, template: &Template) {
+        let output = &template.output;
+        let Some(profile) = Profile::named(&output.profile) else { return };
+        let per_part = output.one_file_per == "part";
+        if self.sheets.is_empty() || profile.is_generic() && !per_part {
+            return;
+        }
+        let wanted = Wanted {
+            profile,
+            per_part,
+            parts: &self.parts,
+            layout: &self.layout,
+            stock: &self.stock,
+            kerf_mm: template.material.kerf_mm,
+        };
+        let order = order::order(&wanted);
+        let found = order::check(&order, &wanted);
+        self.findings.extend(found.into_iter().map(Finding::from));
+        self.order = Some(order);
+    }
+
     /// Makes the strips into parts.
     fn cut_strips(&mut self, structure: Structure, kerf: Kerf, template: &Template) {
         let (fit, turns) = (fit(template), turns(template));
@@ -178,6 +205,24 @@ impl Job {
         joint: Joint,
         template: &Template,
     ) -> Result<Approved<&Vec<Sheet>>, Shut> {
+        self.pass(&self.sheets, joint, template)
+    }
+
+    /// The order, if there is one and the sheets pass.
+    pub fn approved_order(
+        &self,
+        joint: Joint,
+        template: &Template,
+    ) -> Option<Approved<&order::Order>> {
+        self.pass(self.order.as_ref()?, joint, template).ok()
+    }
+
+    fn pass<T>(
+        &self,
+        work: T,
+        joint: Joint,
+        template: &Template,
+    ) -> Result<Approved<T>, Shut> {
         let structure = self.structure.as_ref().ok_or(Shut::Findings)?;
         let fingerprint = Fingerprint::of(structure, joint, &template.source);
         let judged = Judged {
@@ -185,7 +230,7 @@ impl Job {
             verdict: self.verdict.as_ref(),
             accepted: self.accepted_flexible.as_deref(),
         };
-        gate::approve(&self.sheets, &self.findings, judged)
+        gate::approve(work, &self.findings, judged)
     }
 
     /// Judges the structure and notes what forbids cutting.
@@ -305,78 +350,4 @@ fn shape(part: &Part, kerf: Kerf, template: &Template) -> Shape {
     let hole = |hole| kerf.compensated(hole).flattened(ARC_SAGITTA_MM);
     let holes = holes.map(hole).collect();
     Shape { name: part.id.clone(), outline, holes, turns: turns(template) }
-}
-
-/// Grain must run along the parts.
-fn turns(template: &Template) -> Turns {
-    if template.material.grain {
-        Turns::Only(vec![0.0, std::f64::consts::PI])
-    } else {
-        Turns::Free
-    }
-}
-
-/// What a structure has to keep, as the template says.
-pub fn tolerance(template: &Template) -> Tolerance {
-    Tolerance {
-        planarity_warn: template.gate.planarity_warn_percent / 100.0,
-        planarity_limit: template.gate.planarity_limit_percent / 100.0,
-        ..Tolerance::default()
-    }
-}
-
-/// The sheets of a template.
-pub fn stock(template: &Template) -> Vec<Stock> {
-    let sheets = template.sheet.iter().map(|sheet| Stock {
-        width: sheet.width_mm,
-        height: sheet.height_mm,
-        margin: sheet.margin_mm,
-        spacing: sheet.spacing_mm,
-        count: sheet.count,
-    });
-    sheets.collect()
-}
-
-fn fit(template: &Template) -> Fit {
-    let (material, joint, gate) = (&template.material, &template.joint, &template.gate);
-    Fit {
-        thickness: material.thickness_mm,
-        clearance: material.clearance_mm,
-        web: material.web_mm,
-        web_least: material.web_least_mm,
-        relief: material.relief_radius_mm,
-        overhang: joint.overhang_mm,
-        lap_split: joint.lap_split,
-        depth_allowance: joint.depth_allowance_mm,
-        chamfer: joint.mouth_chamfer_mm,
-        chamfer_angle: joint.mouth_chamfer_deg.to_radians(),
-        setback: joint.setback_mm,
-        crossing_warn: gate.crossing_warn_deg.to_radians(),
-        crossing_least: gate.crossing_least_deg.to_radians(),
-        bend_model: template.bend.model,
-        bend_crack: template.bend.crack,
-    }
-}
-
-fn marking(template: &Template) -> Marking {
-    Marking {
-        height: template.output.lettering_mm,
-        folds: match template.bend.fold_marks {
-            crate::template::FoldMarks::None => FoldMarks::None,
-            crate::template::FoldMarks::Engrave => FoldMarks::Engrave,
-            crate::template::FoldMarks::Score => FoldMarks::Score,
-        },
-    }
-}
-
-fn frame(template: &Template, job: String, accepted: Option<&str>) -> Frame {
-    let kerf = template.material.kerf_mm;
-    let note = if kerf > 0.0 {
-        format!("kerf {kerf} mm is in the lines: cut on the line")
-    } else {
-        "no kerf in the lines".to_owned()
-    };
-    let accepted = accepted.map(|reason| format!("flexible, accepted: {reason}"));
-    let notes = std::iter::once(note).chain(accepted).collect();
-    Frame { job, material: template.material.name.clone(), notes }
 }

@@ -4,10 +4,12 @@ use crate::cli::input;
 use crate::cli::jobdir::{self, JobDirError};
 use crate::cli::run::{End, Failure, draw, named, print};
 use crate::cli::show::Voice;
+use crate::export;
 use crate::gate::approve_loose;
 use crate::job;
 use crate::joint::Joint;
 use crate::nest::Effort;
+use crate::order;
 use crate::parts::{CouponMark, Fitted};
 use crate::report::{self, Source};
 use crate::template::{self, Template};
@@ -76,8 +78,13 @@ fn make(args: &CouponArgs, template: &Template, voice: Voice) -> Result<End, Fai
         named(("job.json".to_owned(), pretty.into_bytes())),
         named(("parts.csv".to_owned(), bill.into_bytes())),
     ];
-    let approved = approve_loose(&job.sheets, &job.findings);
-    let drawn = draw(&job, approved.as_ref(), &mut files, &mut manifest, voice);
+    let cut = approve_loose(&job.sheets, &job.findings);
+    let ordered = job.order.as_ref().and_then(|o| approve_loose(o, &job.findings));
+    let cut = cut.map(|sheets| {
+        let ordered = ordered.iter().flat_map(order::files);
+        export::cut_files(&sheets).into_iter().chain(ordered).collect()
+    });
+    let drawn = draw(&job, cut, &mut files, &mut manifest, voice);
     jobdir::write(&dir, &files)?;
     if args.json {
         print(&format!("{manifest}\n"));

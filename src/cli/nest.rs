@@ -13,6 +13,7 @@ use crate::gate::approve_loose;
 use crate::nest::{self, Effort, Found, NestError, Shape, Stock};
 use crate::proof::{Format, drawn_parts};
 use crate::report::{Nested, layout_json, layout_sheets};
+use crate::setting;
 use crate::watch::Watch;
 use clap::Args;
 use std::path::{Path, PathBuf};
@@ -180,7 +181,7 @@ fn set_up(order: &mut Order, args: &NestArgs) -> Result<(), InputError> {
     let unsaid = order.stock.is_empty() && args.sheet.is_empty();
     if let Some(name) = args.template.as_deref().or(unsaid.then_some("pmma-cast-3")) {
         let template = input::template(name)?;
-        order.stock = crate::job::stock(&template);
+        order.stock = setting::stock(&template);
     }
     if !args.sheet.is_empty() {
         let (spacing, margin) =

@@ -7,6 +7,7 @@ use crate::cli::run::{End, Failure, check_json, complain, print};
 use crate::cli::show::{Terminal, Voice};
 use crate::diagnostic::{Finding, passes};
 use crate::job;
+use crate::setting;
 use crate::joint::Joint;
 use crate::rigidity::{
     self, Fingerprint, Look, MOST_PAIRED, MOST_STEPS, Model, Pairing, Question,
@@ -248,7 +249,7 @@ fn structure(args: &InputArgs) -> Result<Result<Case, Vec<Finding>>, Failure> {
     let template = input::template(&args.template)?;
     let input = input::structure(args)?;
     let mut findings = input.findings;
-    let structure = match Structure::new(input.draft, &job::tolerance(&template)) {
+    let structure = match Structure::new(input.draft, &setting::tolerance(&template)) {
         Ok((structure, found)) => {
             findings.extend(found);
             structure

@@ -13,14 +13,13 @@ use crate::cli::show::{self, Terminal, Voice};
 use crate::cli::verify::{self, VerifyError, prove_before_writing};
 use crate::diagnostic::{Finding, Place, passes};
 use crate::export;
-use crate::gate::Approved;
 use crate::job::{self, Interrupted, Job, Order};
 use crate::joint::Joint;
 use crate::nest::Effort;
+use crate::order;
 use crate::proof::Proof;
 use crate::replacement;
 use crate::report::{self, Page, Source};
-use crate::sheets::Sheet;
 use crate::structure::{Structure, write_json};
 use crate::template::Template;
 use crate::watch::Watch;
@@ -230,9 +229,8 @@ fn make(args: &MakeArgs, voice: Voice) -> Result<End, Failure> {
     let source = ordered.source(&args.input);
     let mut manifest = report::manifest(job, &source);
     let mut files = ordered.files(&manifest);
-    let approved = job.approved(args.input.joint, &ordered.template).ok();
-    let Drawn { end, proof } =
-        draw(job, approved.as_ref(), &mut files, &mut manifest, voice);
+    let cut = cut_files(job, args.input.joint, &ordered.template);
+    let Drawn { end, proof } = draw(job, cut, &mut files, &mut manifest, voice);
     let proof = proof.as_ref();
     let is_approved = end == End::Done;
     let page = Page { job, source: &source, manifest: &manifest, proof, is_approved };
@@ -266,19 +264,28 @@ pub(super) struct Drawn {
     pub proof: Option<Proof>,
 }
 
+/// The files for the laser, of the sheets and of the order, if nothing forbids them.
+fn cut_files(job: &Job, joint: Joint, template: &Template) -> Option<Vec<export::File>> {
+    let sheets = job.approved(joint, template).ok()?;
+    let mut files = export::cut_files(&sheets);
+    let order = job.approved_order(joint, template);
+    files.extend(order.iter().flat_map(order::files));
+    (!job.sheets.is_empty()).then_some(files)
+}
+
 /// Adds the files for the laser if nothing forbids it and they can be proved, else stamped
 /// pictures.
 pub(super) fn draw(
     job: &Job,
-    approved: Option<&Approved<&Vec<Sheet>>>,
+    cut: Option<Vec<export::File>>,
     files: &mut Vec<JobFile>,
     manifest: &mut serde_json::Value,
     voice: Voice,
 ) -> Drawn {
     let mut proof = None;
-    if let Some(sheets) = approved.filter(|sheets| !sheets.get().is_empty()) {
+    if let Some(cut) = cut {
         let kept = files.len();
-        files.extend(export::cut_files(sheets).into_iter().map(named));
+        files.extend(cut.into_iter().map(named));
         let (proved, found) = prove_before_writing(files, manifest);
         voice.findings(&found);
         proof = proved;

@@ -66,7 +66,9 @@ fn verify(dir: &Path) -> Result<Proof, VerifyError> {
         move |source| VerifyError::Unreadable { path, source }
     };
     let mut files = JobFiles::new();
-    for (folder, prefix) in [(dir.to_owned(), ""), (dir.join("sheets"), "sheets/")] {
+    let below = [("sheets", "sheets/"), ("order", "order/")];
+    let below = below.map(|(folder, prefix)| (dir.join(folder), prefix));
+    for (folder, prefix) in std::iter::once((dir.to_owned(), "")).chain(below) {
         if !prefix.is_empty() && !folder.is_dir() {
             continue;
         }

@@ -16,9 +16,9 @@ mod svg;
 
 pub use dxf::dxf;
 pub use layer::{LAYERS, Layer};
-pub use pdf::pdf;
+pub use pdf::{pdf, pdf_in};
 pub use png::{PngError, PngLook, png};
-pub use svg::svg;
+pub use svg::{svg, svg_in};
 
 /// Width of a drawn line in SVG and PDF, mm: thin enough to be a cut for every driver.
 const LINE_WIDTH: f64 = 0.025;

@@ -5,7 +5,7 @@
 use pdf_writer::{Content, Finish, Name, Pdf, Rect, Ref, TextStr};
 
 use super::arcs::{Step, steps};
-use super::{LAYERS, LINE_WIDTH};
+use super::{LAYERS, LINE_WIDTH, Layer};
 use crate::geometry::Point2;
 use crate::sheets::Sheet;
 use crate::tolerance::BEZIER_MM;
@@ -19,6 +19,11 @@ const POINTS_PER_MM: f64 = 72.0 / 25.4;
 
 /// All sheets as one PDF, a page each.
 pub fn pdf(sheets: &[Sheet]) -> Vec<u8> {
+    pdf_in(sheets, &LAYERS)
+}
+
+/// The same in other colours.
+pub fn pdf_in(sheets: &[Sheet], layers: &[Layer; 5]) -> Vec<u8> {
     let mut pdf = Pdf::new();
     pdf.set_version(1, 5);
     catalog(&mut pdf);
@@ -30,7 +35,7 @@ pub fn pdf(sheets: &[Sheet]) -> Vec<u8> {
     let page_ids = (FIRST_PAGE..).step_by(2).map(Ref::new).take(sheets.len());
     pdf.pages(PAGES).kids(page_ids.clone()).count(sheets.len() as i32);
     for (sheet, id) in sheets.iter().zip(page_ids) {
-        page(&mut pdf, sheet, id);
+        page(&mut pdf, sheet, (id, layers));
     }
     pdf.finish()
 }
@@ -49,7 +54,7 @@ fn catalog(pdf: &mut Pdf) {
     shown.insert(Name(b"ON")).array().items(layer_ids());
 }
 
-fn page(pdf: &mut Pdf, sheet: &Sheet, id: Ref) {
+fn page(pdf: &mut Pdf, sheet: &Sheet, (id, layers): (Ref, &[Layer; 5])) {
     let contents = Ref::new(id.get() + 1);
     let mut page = pdf.page(id);
     page.parent(PAGES).contents(contents);
@@ -62,15 +67,15 @@ fn page(pdf: &mut Pdf, sheet: &Sheet, id: Ref) {
     names.finish();
     resources.finish();
     page.finish();
-    pdf.stream(contents, &drawing(sheet).finish());
+    pdf.stream(contents, &drawing(sheet, layers).finish());
 }
 
 /// The strokes of a sheet, layer by layer.
-fn drawing(sheet: &Sheet) -> Content {
+fn drawing(sheet: &Sheet, layers: &[Layer; 5]) -> Content {
     let mut content = Content::new();
     // Rounded down, as no line may be broader.
     content.set_line_width((LINE_WIDTH * POINTS_PER_MM * 1e4).floor() as f32 / 1e4);
-    for layer in &LAYERS {
+    for layer in layers {
         content
             .begin_marked_content_with_properties(Name(b"OC"))
             .properties_named(Name(layer.name.as_bytes()));
@@ -140,7 +145,7 @@ mod tests {
     fn every_stroke_is_stroked_once_and_nothing_is_filled() {
         let sheet = sample();
         let paths = LAYERS.iter().flat_map(|layer| layer.paths(&sheet)).count();
-        let content = drawing(&sheet).finish();
+        let content = drawing(&sheet, &LAYERS).finish();
         let content = String::from_utf8(content.into_vec()).unwrap();
         assert_eq!(content.lines().filter(|&line| line == "S").count(), paths);
         assert_eq!(content.lines().filter(|line| line.ends_with(" BDC")).count(), 5);
@@ -153,7 +158,7 @@ mod tests {
     fn numbers_have_no_exponents() {
         let tiny = [1e-9, -1e-9, 3e-6, -4.1e-6, 1e-5, 0.1].map(|x| Point2::new(x, -x));
         let sheet = Sheet { frame: vec![Path::Open(tiny.to_vec())], ..sample() };
-        let content = drawing(&sheet).finish();
+        let content = drawing(&sheet, &LAYERS).finish();
         let content = String::from_utf8(content.into_vec()).unwrap();
         let numbers = content.split_whitespace().filter(|w| w.parse::<f64>().is_ok());
         assert!(numbers.clone().count() > 100);

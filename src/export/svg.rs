@@ -8,6 +8,11 @@ use crate::sheets::{Path, Sheet};
 
 /// The sheet as SVG 1.1 with Inkscape layers.
 pub fn svg(sheet: &Sheet) -> Vec<u8> {
+    svg_in(sheet, &LAYERS)
+}
+
+/// The same in other colours.
+pub fn svg_in(sheet: &Sheet, layers: &[Layer; 5]) -> Vec<u8> {
     let (width, height) = (length(sheet.width), length(sheet.height));
     let mut text = format!(
         concat!(
@@ -20,7 +25,7 @@ pub fn svg(sheet: &Sheet) -> Vec<u8> {
         ),
         width, height, width, height
     );
-    for layer in &LAYERS {
+    for layer in layers {
         text.push_str(&open_group(layer));
         for path in layer.paths(sheet) {
             text.push_str(&format!("<path d=\"{}\"/>\n", commands(path, sheet.height)));

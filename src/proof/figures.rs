@@ -5,8 +5,8 @@ use serde::Serialize;
 /// The worst of everything measured in the files of one format.
 #[derive(Debug, Clone, Default, PartialEq, Serialize)]
 pub struct Worst {
-    /// `dxf`, `svg` or `pdf`.
-    pub format: &'static str,
+    /// `dxf`, `svg` or `pdf`; `order ` before it for files that are made for a service.
+    pub format: String,
     /// Parts found.
     pub parts: usize,
     /// Largest distance between the axes of two parts at one node, folded and placed, mm.

@@ -5,7 +5,7 @@ use crate::proof::Limits;
 use serde::{Deserialize, Deserializer};
 use std::collections::BTreeMap;
 
-#[derive(Deserialize)]
+#[derive(Deserialize, Clone)]
 pub(super) struct Manifest {
     pub format: String,
     pub version: u64,
@@ -16,10 +16,37 @@ pub(super) struct Manifest {
     pub sheets: Vec<Sheet>,
     #[serde(default)]
     pub proof: Written,
+    /// The same parts in files for a service.
+    #[serde(default)]
+    pub order: Option<Order>,
+}
+
+/// Files for a service.
+#[derive(Deserialize, Clone)]
+pub(super) struct Order {
+    pub kerf: f64,
+    #[serde(default)]
+    pub pdf: Option<String>,
+    pub sheets: Vec<Sheet>,
+}
+
+impl Manifest {
+    /// The manifest as if the files of the order were the job's own.
+    pub(super) fn of_order(&self) -> Option<(Self, Order)> {
+        let order = self.order.clone()?;
+        let manifest = Self {
+            material: Material { kerf: order.kerf, ..self.material },
+            sheet_stock: Vec::new(),
+            sheets: order.sheets.clone(),
+            order: None,
+            ..self.clone()
+        };
+        Some((manifest, order))
+    }
 }
 
 /// What the files were when they were written.
-#[derive(Deserialize, Default)]
+#[derive(Deserialize, Default, Clone)]
 pub(super) struct Written {
     /// How far they may be off.
     #[serde(default)]
@@ -36,7 +63,7 @@ pub(super) struct Material {
     pub clearance: f64,
 }
 
-#[derive(Deserialize)]
+#[derive(Deserialize, Clone)]
 pub(super) struct Stock {
     pub width: f64,
     pub height: f64,
@@ -44,7 +71,7 @@ pub(super) struct Stock {
     pub spacing: f64,
 }
 
-#[derive(Deserialize)]
+#[derive(Deserialize, Clone)]
 pub(super) struct Part {
     pub id: String,
     #[serde(default)]
@@ -58,7 +85,7 @@ pub(super) struct Part {
     pub strip: Option<Strip>,
 }
 
-#[derive(Deserialize)]
+#[derive(Deserialize, Clone)]
 pub(super) struct Strip {
     pub nodes: Vec<usize>,
     #[serde(default)]
@@ -80,13 +107,13 @@ pub(super) struct Axis {
     pub top: Point2,
 }
 
-#[derive(Deserialize)]
+#[derive(Deserialize, Clone)]
 pub(super) struct Fold {
     pub node: usize,
     pub angle_deg: f64,
 }
 
-#[derive(Deserialize)]
+#[derive(Deserialize, Clone)]
 pub(super) struct Slit {
     pub node: usize,
     pub from: Edge,
@@ -103,12 +130,12 @@ pub(super) enum Edge {
     Bottom,
 }
 
-#[derive(Deserialize)]
+#[derive(Deserialize, Clone)]
 pub(super) struct Splice {
     pub fin: [usize; 2],
 }
 
-#[derive(Deserialize)]
+#[derive(Deserialize, Clone)]
 pub(super) struct Sheet {
     pub id: String,
     pub width: f64,
@@ -117,13 +144,15 @@ pub(super) struct Sheet {
     pub placements: Vec<Placement>,
 }
 
-#[derive(Deserialize)]
+#[derive(Deserialize, Clone)]
 pub(super) struct SheetFiles {
-    pub dxf: String,
-    pub svg: String,
+    #[serde(default)]
+    pub dxf: Option<String>,
+    #[serde(default)]
+    pub svg: Option<String>,
 }
 
-#[derive(Deserialize)]
+#[derive(Deserialize, Clone)]
 pub(super) struct Placement {
     pub part: String,
     #[serde(default = "one")]

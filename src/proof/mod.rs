@@ -10,6 +10,7 @@
 //! [`Worst::parts`] counts them too. A bent strip is taken as sharply folded at its axes.
 
 mod figures;
+mod files;
 mod finding;
 mod fit;
 mod label;
@@ -35,6 +36,7 @@ use crate::diagnostic::{Finding, Place};
 use crate::structure::{AxisRule, Structure, read_json};
 use crate::tolerance::{PROOF_LIMIT_DEG, PROOF_LIMIT_MM, Tolerance};
 use figures::micro;
+use files::formats;
 use lines::differences;
 use manifest::Manifest;
 use miette::Diagnostic;
@@ -154,44 +156,76 @@ pub fn prove(files: &JobFiles) -> Result<Proof, ProofError> {
         }
         proof.files.insert(path.clone(), digest);
     }
-    let reads: Vec<Read> = formats(&manifest, files, &mut facts)
-        .into_iter()
-        .map(|files| Read::new(&manifest, files))
-        .collect();
-    let mut known = BTreeSet::new();
-    for (k, read) in reads.iter().enumerate() {
-        let mut found = read.findings();
-        if k > 0 {
-            found.extend(differences(&reads[0], read));
-        }
-        let mut worst = Worst {
-            format: read.files.format,
-            parts: read.found.len(),
-            ..Worst::default()
-        };
-        if let Some(structure) = &structure {
-            let refolded = strips::refold(read, structure, &mut worst);
-            found.extend(refolded.findings);
-            if k == 0 {
-                (proof.nodes, proof.slits) = (refolded.nodes, refolded.slits);
-            }
-        }
-        let (parts, off) = part_figures(read, &found, &mut worst);
-        found.extend(off);
-        if k == 0 {
-            proof.parts = parts;
-        }
-        proof.worst.push(worst);
-        // What stands in all formats is told once, with the first file it was found in.
-        let news = |fact: &ProofFinding| known.insert(key(fact));
-        facts.extend(found.into_iter().filter(news));
+    let drawn = formats(&manifest, Some(PDF), files, &mut facts);
+    let mut told = Told { facts, known: BTreeSet::new() };
+    let structure = structure.as_ref();
+    let own = Group { manifest: &manifest, structure, name: "" };
+    own.prove(drawn, &mut proof, &mut told);
+    if let Some((manifest, order)) = manifest.of_order() {
+        let pdf = order.pdf.as_deref();
+        let drawn = formats(&manifest, pdf, files, &mut told.facts);
+        // Figures of nodes, slits and parts are those of the job's own files.
+        let mut figures = Proof::default();
+        let ordered = Group { manifest: &manifest, structure, name: "order " };
+        ordered.prove(drawn, &mut figures, &mut told);
+        proof.worst.extend(figures.worst);
     }
-    proof.findings = facts.into_iter().map(Finding::from).collect();
+    proof.findings = told.facts.into_iter().map(Finding::from).collect();
     Ok(proof)
 }
 
+/// What has been found so far: what stands in all formats is told once, with the first
+/// file it was found in.
+struct Told {
+    facts: Vec<ProofFinding>,
+    known: BTreeSet<Key>,
+}
+
+type Key = (String, Vec<String>, Vec<usize>, Option<[i64; 2]>);
+
+/// Files that hold the same parts in several formats.
+struct Group<'a> {
+    manifest: &'a Manifest,
+    structure: Option<&'a Structure>,
+    /// Before the names of its formats.
+    name: &'static str,
+}
+
+impl Group<'_> {
+    fn prove(&self, formats: Vec<Files>, proof: &mut Proof, told: &mut Told) {
+        let reads: Vec<Read> =
+            formats.into_iter().map(|files| Read::new(self.manifest, files)).collect();
+        for (k, read) in reads.iter().enumerate() {
+            let mut found = read.findings();
+            if k > 0 {
+                found.extend(differences(&reads[0], read));
+            }
+            let mut worst = Worst {
+                format: format!("{}{}", self.name, read.files.format),
+                parts: read.found.len(),
+                ..Worst::default()
+            };
+            if let Some(structure) = self.structure {
+                let refolded = strips::refold(read, structure, &mut worst);
+                found.extend(refolded.findings);
+                if k == 0 {
+                    (proof.nodes, proof.slits) = (refolded.nodes, refolded.slits);
+                }
+            }
+            let (parts, off) = part_figures(read, &found, &mut worst);
+            found.extend(off);
+            if k == 0 {
+                proof.parts = parts;
+            }
+            proof.worst.push(worst);
+            let news = |fact: &ProofFinding| told.known.insert(key(fact));
+            told.facts.extend(found.into_iter().filter(news));
+        }
+    }
+}
+
 /// What makes two findings one, whatever format they were found in.
-fn key(fact: &ProofFinding) -> (String, Vec<String>, Vec<usize>, Option<[i64; 2]>) {
+fn key(fact: &ProofFinding) -> Key {
     let code = fact.code().map(|code| code.to_string()).unwrap_or_default();
     let place: Place = crate::diagnostic::Located::place(fact);
     let at = place.at.map(|at| at.map(|mm| mm.round() as i64));
@@ -202,7 +236,8 @@ fn key(fact: &ProofFinding) -> (String, Vec<String>, Vec<usize>, Option<[i64; 2]
 
 fn is_proved(path: &str) -> bool {
     let drawing = [".dxf", ".svg", ".pdf"].iter().any(|end| path.ends_with(end));
-    path == "structure.json" || path.starts_with("sheets/") && drawing
+    path == "structure.json"
+        || (path.starts_with("sheets/") || path.starts_with("order/")) && drawing
 }
 
 fn read_manifest(files: &JobFiles) -> Result<Manifest, ProofError> {
@@ -243,67 +278,6 @@ fn read_structure(
             Err(bad(first.map(|finding| finding.message).unwrap_or_default()))
         }
     }
-}
-
-/// The drawings of all formats; what is missing or unreadable is noted.
-fn formats(
-    manifest: &Manifest,
-    files: &JobFiles,
-    facts: &mut Vec<ProofFinding>,
-) -> Vec<Files> {
-    let mut formats = Vec::new();
-    for format in ["dxf", "svg"] {
-        let sheets = manifest.sheets.iter().map(|sheet| {
-            let named = if format == "dxf" { &sheet.files.dxf } else { &sheet.files.svg };
-            let path = if named.contains('/') {
-                named.clone()
-            } else {
-                format!("sheets/{named}")
-            };
-            let read = |bytes: &Vec<u8>| match format {
-                "dxf" => read::read_dxf(bytes),
-                _ => read::read_svg(bytes),
-            };
-            let drawing = match files.get(&path).map(read) {
-                Some(Ok(drawing)) => Some(drawing),
-                Some(Err(error)) => {
-                    let (spot, reason) = (Spot::file(&path), error.to_string());
-                    facts.push(ProofFinding::Unreadable { spot, reason });
-                    None
-                }
-                None => {
-                    facts.push(ProofFinding::FileMissing { spot: Spot::file(&path) });
-                    None
-                }
-            };
-            (path, drawing)
-        });
-        formats.push(Files { format, sheets: sheets.collect() });
-    }
-    formats.push(Files { format: "pdf", sheets: pages(manifest, files, facts) });
-    formats
-}
-
-fn pages(
-    manifest: &Manifest,
-    files: &JobFiles,
-    facts: &mut Vec<ProofFinding>,
-) -> Vec<(String, Option<read::Drawing>)> {
-    let mut pages = match files.get(PDF).map(|bytes| read::read_pdf(bytes)) {
-        Some(Ok(pages)) => pages,
-        Some(Err(error)) => {
-            let (spot, reason) = (Spot::file(PDF), error.to_string());
-            facts.push(ProofFinding::Unreadable { spot, reason });
-            Vec::new()
-        }
-        None => {
-            facts.push(ProofFinding::FileMissing { spot: Spot::file(PDF) });
-            Vec::new()
-        }
-    }
-    .into_iter();
-    let named = |sheet: &manifest::Sheet| format!("{PDF}, page of {}", sheet.id);
-    manifest.sheets.iter().map(|sheet| (named(sheet), pages.next())).collect()
 }
 
 /// Figures of each part, and where its outline is off and nothing else says so.

@@ -5,6 +5,7 @@ use crate::geometry::{Contour, Point2};
 use crate::job::Job;
 use crate::joint::Joint;
 use crate::nest::{NestedSheet, Stock};
+use crate::order::{Format, Order};
 use crate::parts::{self, Body, FlatAxis, Opening, Part, Slit, StripBody};
 use crate::proof::Limits;
 use crate::sheets::{Operation, Path, Sheet};
@@ -58,6 +59,7 @@ pub fn manifest(job: &Job, source: &Source) -> Value {
         "proof": {"limits": limits(source.template)},
         "parts": job.parts.iter().map(part).collect::<Vec<_>>(),
         "sheets": sheets(job),
+        "order": job.order.as_ref().map(|order| ordered(job, order)),
         "assembly": assembly(job, source.template),
         "totals": totals(job, source.template),
     })
@@ -156,6 +158,18 @@ fn sheet_entry(job: &Job, sheet: &Sheet, nested: &NestedSheet) -> Value {
     let area =
         |placement: &crate::nest::Placement| job.parts[placement.shape].region.area();
     let used: f64 = nested.placements.iter().map(area).sum();
+    let file = |ending: &str| format!("sheets/{}.{ending}", sheet.id);
+    json!({
+        "id": sheet.id,
+        "width": sheet.width,
+        "height": sheet.height,
+        "files": {"dxf": file("dxf"), "svg": file("svg"), "png": file("png")},
+        "utilisation": mm(used / (sheet.width * sheet.height)),
+        "placements": placements(job, nested),
+    })
+}
+
+fn placements(job: &Job, nested: &NestedSheet) -> Vec<Value> {
     let placements = nested.placements.iter().map(|p| {
         json!({
             "part": job.parts[p.shape].id,
@@ -165,14 +179,28 @@ fn sheet_entry(job: &Job, sheet: &Sheet, nested: &NestedSheet) -> Value {
             "angle_deg": degrees(p.angle),
         })
     });
-    let file = |ending: &str| format!("sheets/{}.{ending}", sheet.id);
+    placements.collect()
+}
+
+/// The files for a service, with where parts lie in them.
+fn ordered(job: &Job, order: &Order) -> Value {
+    let sheets = order.sheets.iter().zip(&order.layout.sheets).map(|(sheet, nested)| {
+        json!({
+            "id": sheet.id,
+            "width": sheet.width,
+            "height": sheet.height,
+            "files": {
+                "dxf": order.path(sheet, Format::Dxf),
+                "svg": order.path(sheet, Format::Svg),
+            },
+            "placements": placements(job, nested),
+        })
+    });
     json!({
-        "id": sheet.id,
-        "width": sheet.width,
-        "height": sheet.height,
-        "files": {"dxf": file("dxf"), "svg": file("svg"), "png": file("png")},
-        "utilisation": mm(used / (sheet.width * sheet.height)),
-        "placements": placements.collect::<Vec<_>>(),
+        "profile": order.profile.name,
+        "kerf": order.kerf_mm,
+        "pdf": order.pdf_path(),
+        "sheets": sheets.collect::<Vec<_>>(),
     })
 }
 

@@ -72,12 +72,15 @@ const SHEET: &[Key] = &[
     may("count", Kind::Whole),
     may("price", Kind::Number(0.0, 1e6)),
 ];
+/// What `output.profile` may be.
+pub const PROFILES: [&str; 6] =
+    ["generic", "lightburn", "rgb-lab", "snijlab", "epilog", "single-part"];
+
 const OUTPUT: &[Key] = &[
-    may("profile", Kind::Word(&["generic"])),
+    may("profile", Kind::Word(&PROFILES)),
     may("frame", Kind::Flag),
     may("lettering_mm", Kind::Number(1.0, 50.0)),
-    // One file per part is not built yet.
-    may("one_file_per", Kind::Word(&["sheet"])),
+    may("one_file_per", Kind::Word(&["sheet", "part"])),
 ];
 const GATE: &[Key] = &[
     may("play_mm", Kind::Number(0.0, 10.0)),
@@ -220,8 +223,10 @@ fn value_fault(key: &Key, value: &Value, line: usize) -> Option<Fault> {
             return None;
         }
         (Kind::Word(&["none", ..]), ..) => "\"none\", \"engrave\" or \"score\"",
-        (Kind::Word(&["sheet"]), ..) => "\"sheet\" (the only one built so far)",
-        (Kind::Word(_), ..) => "\"generic\" (the only one built so far)",
+        (Kind::Word(&["sheet", ..]), ..) => "\"sheet\" or \"part\"",
+        (Kind::Word(_), ..) => {
+            "\"generic\", \"lightburn\", \"rgb-lab\", \"snijlab\", \"epilog\" or \"single-part\""
+        }
     };
     Some(Fault::WrongType {
         line,

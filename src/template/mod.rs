@@ -8,6 +8,7 @@ mod error;
 mod keys;
 
 pub use error::{Fault, TemplateErrors};
+pub use keys::PROFILES;
 pub(crate) use keys::nearest;
 
 use crate::tolerance::{PROOF_LIMIT_DEG, PROOF_LIMIT_MM};

@@ -22,7 +22,8 @@ def check_shape(job: Job, report: Report) -> None:
 
 
 def check_files(job: Job, report: Report) -> None:
-    missing = [name for name in ("parts.csv", "sheets/sheets.pdf") if not (job.folder / name).is_file()]
+    wanted = ("parts.csv", "sheets/sheets.pdf") + (() if job.is_coupon else ("report.html",))
+    missing = [name for name in wanted if not (job.folder / name).is_file()]
     named = [job.file(name) for sheet in job.manifest["sheets"] for name in sheet["files"].values()]
     missing += [str(path.relative_to(job.folder)) for path in named if not path.is_file()]
     present = {path for path in (job.folder / "sheets").glob("sheet-*.*")}

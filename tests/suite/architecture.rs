@@ -21,6 +21,8 @@ const ORDER: &[&str] = &[
     "sheets",
     "gate",
     "export",
+    "order",
+    "setting",
     "proof",
     "job",
     "advice",

@@ -9,6 +9,7 @@ mod gate;
 mod golden;
 mod laws;
 mod nest;
+mod order;
 mod peers;
 mod planarise;
 mod plane;

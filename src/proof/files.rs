@@ -1,0 +1,66 @@
+//! The drawings of a group of files, format by format.
+
+use crate::proof::JobFiles;
+use crate::proof::finding::{ProofFinding, Spot};
+use crate::proof::manifest::{Manifest, Sheet};
+use crate::proof::read::{Drawing, DrawingError, read_dxf, read_pdf, read_svg};
+use crate::proof::sheets::Files;
+
+/// The path of a sheet's file, if the manifest names one.
+type Named = fn(&Sheet) -> Option<&String>;
+type Reader = fn(&[u8]) -> Result<Drawing, DrawingError>;
+
+const SINGLE: [(&str, Named, Reader); 2] = [
+    ("dxf", |sheet| sheet.files.dxf.as_ref(), read_dxf),
+    ("svg", |sheet| sheet.files.svg.as_ref(), read_svg),
+];
+
+/// The drawings of all formats that the manifest names; what is missing or unreadable is
+/// noted.
+pub(super) fn formats(
+    manifest: &Manifest,
+    pdf: Option<&str>,
+    files: &JobFiles,
+    facts: &mut Vec<ProofFinding>,
+) -> Vec<Files> {
+    let mut formats = Vec::new();
+    for (format, named, reader) in SINGLE {
+        if manifest.sheets.iter().all(|sheet| named(sheet).is_none()) {
+            continue;
+        }
+        let sheets = manifest.sheets.iter().map(|sheet| {
+            let named = named(sheet).cloned().unwrap_or_default();
+            let inside = named.contains('/');
+            let path = if inside { named } else { format!("sheets/{named}") };
+            let drawing = read(&path, files, reader, facts);
+            (path, drawing)
+        });
+        formats.push(Files { format, sheets: sheets.collect() });
+    }
+    if let Some(pdf) = pdf {
+        let mut pages = read(pdf, files, read_pdf, facts).unwrap_or_default().into_iter();
+        let named = |sheet: &Sheet| format!("{pdf}, page of {}", sheet.id);
+        let sheets = manifest.sheets.iter().map(|sheet| (named(sheet), pages.next()));
+        formats.push(Files { format: "pdf", sheets: sheets.collect() });
+    }
+    formats
+}
+
+/// What a file holds; that it is missing or unreadable is noted.
+fn read<T>(
+    path: &str,
+    files: &JobFiles,
+    reader: fn(&[u8]) -> Result<T, DrawingError>,
+    facts: &mut Vec<ProofFinding>,
+) -> Option<T> {
+    let spot = Spot::file(path);
+    match files.get(path).map(|bytes| reader(bytes)) {
+        Some(Ok(read)) => return Some(read),
+        Some(Err(error)) => {
+            let reason = error.to_string();
+            facts.push(ProofFinding::Unreadable { spot, reason });
+        }
+        None => facts.push(ProofFinding::FileMissing { spot }),
+    }
+    None
+}
