@@ -17,6 +17,21 @@ pub(super) struct Step {
     pub is_tight: bool,
 }
 
+/// Up to so many fins in the pictures of all steps together each shows all that stands;
+/// beyond it the report would be mostly pictures.
+const ALL_SHOWN: usize = 200_000;
+
+/// The parts that stand before a step, as far as its picture shows them: those it goes
+/// onto, and where that is not too much all others.
+pub(super) fn standing(job: &Job, steps: &[Step], k: usize) -> Vec<usize> {
+    let fins = job.structure.as_ref().map_or(0, |structure| structure.fins().len());
+    let all = fins * steps.len() / 2 <= ALL_SHOWN;
+    let onto =
+        |part: &usize| steps[k].onto.iter().any(|(_, id)| *id == job.parts[*part].id);
+    let before = steps[..k].iter().map(|step| step.part);
+    before.filter(|part| all || onto(part)).collect()
+}
+
 /// The steps in order: one per part of the structure.
 pub(super) fn steps(job: &Job, template: &Template) -> Vec<Step> {
     (0..job.parts.len()).filter_map(|part| step(job, part, template)).collect()

@@ -120,3 +120,23 @@ fn names_cannot_break_out_of_the_page() {
     assert!(!page.contains("<script>alert"));
     assert!(page.contains("&lt;/title&gt;&lt;script&gt;alert(1)"));
 }
+
+/// A title, six figures to a page, and the list of parts; every part is named twice.
+#[test]
+fn the_guide_has_a_figure_for_each_step_and_names_each_part() {
+    let template = template();
+    let job = made(example("vault"), Joint::Lap, &template);
+    let bytes = report::guide(&job, &source(&template, Joint::Lap)).unwrap();
+    let guide = lopdf::Document::load_mem(&bytes).unwrap();
+    let pages = guide.get_pages();
+    let steps = job.parts.len();
+    assert_eq!(pages.len(), 1 + steps.div_ceil(6) + 1);
+    let numbers: Vec<u32> = pages.keys().copied().collect();
+    let text = guide.extract_text(&numbers).unwrap();
+    let words: Vec<&str> = text.split_whitespace().collect();
+    for part in &job.parts {
+        let named = words.iter().filter(|word| **word == part.id).count();
+        assert!(named >= 2, "{} is named {named} times", part.id);
+    }
+    assert!(report::guide(&Job::default(), &source(&template, Joint::Lap)).is_none());
+}

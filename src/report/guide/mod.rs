@@ -7,9 +7,9 @@ use crate::job::Job;
 use crate::report::fins;
 use crate::report::manifest::Source;
 use crate::report::picture::Picture;
-use crate::report::steps::{Step, steps};
+use crate::report::steps::{Step, standing, steps};
 use leaf::{BOLD, FONTS, Leaf, MARGIN, PLAIN, POINTS_PER_MM, SIZE, Set, lines};
-use pdf_writer::{Finish, Name, Pdf, Rect, Ref};
+use pdf_writer::{Filter, Finish, Name, Pdf, Rect, Ref};
 
 /// Figures beside and below each other on a page.
 const GRID: [usize; 2] = [2, 3];
@@ -45,7 +45,7 @@ pub fn guide(job: &Job, source: &Source) -> Option<Vec<u8>> {
     for page in numbered.chunks(GRID[0] * GRID[1]) {
         let mut leaf = Leaf::new();
         for (place, (k, step)) in page.iter().enumerate() {
-            let standing: Vec<usize> = steps[..*k].iter().map(|step| step.part).collect();
+            let standing = standing(job, &steps, *k);
             let figure = Figure { job, picture: &picture, standing: &standing };
             figure.draw(&mut leaf, corner(place), (*k, step));
         }
@@ -239,7 +239,7 @@ fn bound(leaves: Vec<Leaf>) -> Vec<u8> {
         names.finish();
         resources.finish();
         page.finish();
-        pdf.stream(contents, &leaf.bytes());
+        pdf.stream(contents, &leaf.packed()).filter(Filter::FlateDecode);
     }
     pdf.finish()
 }

@@ -3,15 +3,11 @@
 use crate::job::Job;
 use crate::report::page::html;
 use crate::report::picture::Picture;
-use crate::report::steps::Step;
+use crate::report::steps::{Step, standing};
 use std::fmt::Write;
 
 /// Width of a picture, in its own units.
 const WIDTH: f64 = 400.0;
-
-/// Up to this many parts each picture shows all that stands; beyond it the pages would be
-/// mostly pictures, so that only what the part goes onto is shown.
-const ALL_SHOWN: usize = 200;
 
 /// The steps as figures; their pictures share one drawing of each part.
 pub(super) fn steps(job: &Job, steps: &[Step]) -> String {
@@ -21,21 +17,10 @@ pub(super) fn steps(job: &Job, steps: &[Step]) -> String {
     }
     let picture = Picture::new(job, structure, WIDTH);
     let figures = steps.iter().enumerate().map(|(k, step)| {
-        let shown = shown(job, steps, k);
+        let shown = standing(job, steps, k);
         figure(job, &picture, step, (k, &shown))
     });
     drawings(job, &picture) + &figures.collect::<String>()
-}
-
-/// The parts that are shown as standing at a step.
-fn shown(job: &Job, steps: &[Step], k: usize) -> Vec<usize> {
-    let before = steps[..k].iter().map(|step| step.part);
-    if steps.len() <= ALL_SHOWN {
-        return before.collect();
-    }
-    let onto =
-        |part: &usize| steps[k].onto.iter().any(|(_, id)| *id == job.parts[*part].id);
-    before.filter(onto).collect()
 }
 
 /// Each part once, as a path.

@@ -69,7 +69,6 @@ pub fn page(page: &Page) -> String {
 /// Anchor, title and HTML of each section.
 fn sections(page: &Page) -> [(&'static str, &'static str, String); 9] {
     let job = page.job;
-    let steps = steps::steps(job, page.source.template);
     let told = page.proof.map_or(&[][..], |proof| proof.findings.as_slice());
     let findings: Vec<&Finding> = job.findings.iter().chain(told).collect();
     [
@@ -79,10 +78,18 @@ fn sections(page: &Page) -> [(&'static str, &'static str, String); 9] {
         ("order", "What to order", sections::order(page)),
         ("sheets", "Sheets", sheets(page)),
         ("parts", "Parts", sections::parts(page)),
-        ("assembly", "Assembly", assembly::steps(job, &steps)),
+        ("assembly", "Assembly", assembly(page)),
         ("slits", "Slits", sections::slits(page)),
         ("proof", "Proof", sections::proof(page)),
     ]
+}
+
+fn assembly(page: &Page) -> String {
+    if !page.job.only.is_empty() {
+        return "<p>These parts replace others of a whole job: its report shows where they go.</p>\n"
+            .to_owned();
+    }
+    assembly::steps(page.job, &steps::steps(page.job, page.source.template))
 }
 
 fn sheets(page: &Page) -> String {
@@ -98,8 +105,12 @@ fn about(page: &Page) -> String {
     let size = page.job.structure.as_ref().map(|structure| structure.size_text());
     let material = &page.source.template.material;
     let size = size.map(|size| format!("{size}, ")).unwrap_or_default();
+    let only = match page.job.only.as_slice() {
+        [] => String::new(),
+        parts => format!("only {}: ", parts.join(", ")),
+    };
     format!(
-        "{size}scale {}, {}, from {}",
+        "{only}{size}scale {}, {}, from {}",
         page.source.scale, material.name, page.source.input
     )
 }

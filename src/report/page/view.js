@@ -67,8 +67,8 @@
   const unit = (a) => { const l = Math.hypot(...a) || 1; return a.map((x) => x / l); };
   // Corners of fin f: bottom and top of its first node, bottom and top of its second.
   const corners = fins.map(([i, j]) => [xyz(i, 0), xyz(i, 1), xyz(j, 0), xyz(j, 1)]);
-  const low = [0, 1, 2].map((k) => Math.min(...nodes.map((n) => Math.min(n[k], n[k + 3]))));
-  const high = [0, 1, 2].map((k) => Math.max(...nodes.map((n) => Math.max(n[k], n[k + 3]))));
+  const low = [0, 1, 2].map((k) => nodes.reduce((least, n) => Math.min(least, n[k], n[k + 3]), Infinity));
+  const high = [0, 1, 2].map((k) => nodes.reduce((most, n) => Math.max(most, n[k], n[k + 3]), -Infinity));
   const middle = low.map((x, k) => (x + high[k]) / 2);
   const radius = Math.hypot(...minus(high, low)) / 2 || 1;
 
@@ -135,7 +135,7 @@
   const MEANINGS = {
     planarity: () => ({ at: (fin) => fin[3], most: scene.planarity_limit, low: "flat", high: `${digits(scene.planarity_limit)} %`, words: "How far the corners of a fin are off one plane, as a share of its size; red is the limit." }),
     discrepancy: () => {
-      const most = Math.max(1e-12, ...fins.flatMap((fin) => [fin[4] || 0, fin[5] || 0]));
+      const most = fins.reduce((most, fin) => Math.max(most, fin[4] || 0, fin[5] || 0), 1e-12);
       return { at: (fin, end) => (fin[4 + end] || 0), most, low: "0", high: digits(most), words: "How far parts would have to leave each other at a node in the softest motion, the far node moving by 1." };
     },
     bend: () => ({ at: (fin, end) => fin[6 + end], most: 1 / scene.bend_model, low: "straight", high: `radius ${digits(scene.bend_model)} × thickness`, words: "How tightly the sheet bends at a node; red is the limit for a model." }),
