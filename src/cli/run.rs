@@ -320,11 +320,13 @@ fn summary(job: &Job, end: End, dir: &Path) -> String {
     match end {
         End::Done => {
             let plural = if sheets == 1 { "" } else { "s" };
-            format!("{parts} parts on {sheets} sheet{plural} in {}", dir.display())
+            let page = dir.join("report.html");
+            let (dir, page) = (dir.display(), page.display());
+            format!("{parts} parts on {sheets} sheet{plural} in {dir}; {page} tells all")
         }
         _ if job.structure.is_some() => format!(
-            "refused: no cut file was written; the findings are in {}",
-            dir.join("job.json").display()
+            "refused: no cut file was written; {} says why",
+            dir.join("report.html").display()
         ),
         _ => "refused: there is no structure to make parts of".to_owned(),
     }

@@ -148,7 +148,8 @@ def use(report: Path, shots: Path | None) -> dict:
     with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as scratch:
         browser = Browser(scratch)
         try:
-            seconds = browser.open(report)
+            # Twice: the first time Chromium starts its drawing too.
+            seconds = min(browser.open(report) for _ in range(2))
             if shots:
                 shots.mkdir(parents=True, exist_ok=True)
                 browser.shot(shots / "loaded.png")

@@ -71,6 +71,11 @@ fn the_page_loads_nothing_and_shows_every_part_in_space_on_a_sheet_and_as_a_step
             part.id
         )));
     }
+    let bends = page.find("Tightest bend of each part").unwrap();
+    assert!(
+        page[bends..].contains("weeks, as a model"),
+        "the vault bends at R = 100 to 330 t"
+    );
     let figures = page.matches("<figure").count();
     assert_eq!(page.matches("aria-label=\"step ").count(), figures - job.sheets.len());
 }

@@ -6,6 +6,7 @@
 //! the sheet. Nothing is loaded from anywhere.
 
 mod assembly;
+mod bending;
 mod drawing;
 mod html;
 mod scene;
@@ -67,7 +68,7 @@ pub fn page(page: &Page) -> String {
 }
 
 /// Anchor, title and HTML of each section.
-fn sections(page: &Page) -> [(&'static str, &'static str, String); 9] {
+fn sections(page: &Page) -> [(&'static str, &'static str, String); 10] {
     let job = page.job;
     let told = page.proof.map_or(&[][..], |proof| proof.findings.as_slice());
     let findings: Vec<&Finding> = job.findings.iter().chain(told).collect();
@@ -79,6 +80,7 @@ fn sections(page: &Page) -> [(&'static str, &'static str, String); 9] {
         ("sheets", "Sheets", sheets(page)),
         ("parts", "Parts", sections::parts(page)),
         ("assembly", "Assembly", assembly(page)),
+        ("bends", "Bends", bending::bending(page)),
         ("slits", "Slits", sections::slits(page)),
         ("proof", "Proof", sections::proof(page)),
     ]

@@ -16,9 +16,10 @@ pub(super) fn summary(page: &Page) -> String {
     let totals = &page.manifest["totals"];
     let number = |key: &str| totals[key].as_f64().unwrap_or(0.0);
     let minutes = (number("seconds") / 60.0).ceil();
+    let sheets = number("sheets").to_string();
     let mut cards = vec![
         ("parts", number("parts").to_string()),
-        ("sheets", number("sheets").to_string()),
+        (if sheets == "1" { "sheet" } else { "sheets" }, sheets),
         ("to cut", format!("{:.1} m", number("cut_length") / 1000.0)),
         ("on the machine", format!("{minutes} min")),
         ("mass", format!("{:.2} kg", number("mass"))),
