@@ -19,7 +19,7 @@ pub(super) struct Step {
 
 /// Up to so many fins in the pictures of all steps together each shows all that stands;
 /// beyond it the report would be mostly pictures.
-const ALL_SHOWN: usize = 200_000;
+const ALL_SHOWN: usize = 100_000;
 
 /// The parts that stand before a step, as far as its picture shows them: those it goes
 /// onto, and where that is not too much all others.

@@ -80,10 +80,9 @@ impl Leaf {
         self.content.close_path();
     }
 
-    /// The page's content, packed by zlib.
-    pub(super) fn packed(self) -> Vec<u8> {
-        const LEVEL: u8 = 6;
-        miniz_oxide::deflate::compress_to_vec_zlib(&self.content.finish(), LEVEL)
+    /// The page's content, not packed: the file can be searched like all others of a job.
+    pub(super) fn bytes(self) -> Vec<u8> {
+        self.content.finish().into_vec()
     }
 }
 

@@ -9,7 +9,7 @@ use crate::report::manifest::Source;
 use crate::report::picture::Picture;
 use crate::report::steps::{Step, standing, steps};
 use leaf::{BOLD, FONTS, Leaf, MARGIN, PLAIN, POINTS_PER_MM, SIZE, Set, lines};
-use pdf_writer::{Filter, Finish, Name, Pdf, Rect, Ref};
+use pdf_writer::{Finish, Name, Pdf, Rect, Ref};
 
 /// Figures beside and below each other on a page.
 const GRID: [usize; 2] = [2, 3];
@@ -239,7 +239,7 @@ fn bound(leaves: Vec<Leaf>) -> Vec<u8> {
         names.finish();
         resources.finish();
         page.finish();
-        pdf.stream(contents, &leaf.packed()).filter(Filter::FlateDecode);
+        pdf.stream(contents, &leaf.bytes());
     }
     pdf.finish()
 }
