@@ -148,8 +148,8 @@ def use(report: Path, shots: Path | None) -> dict:
     with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as scratch:
         browser = Browser(scratch)
         try:
-            # Twice: the first time Chromium starts its drawing too.
-            seconds = min(browser.open(report) for _ in range(2))
+            # The best of three: the first time Chromium starts its drawing too, and machines are shared.
+            seconds = min(browser.open(report) for _ in range(3))
             if shots:
                 shots.mkdir(parents=True, exist_ok=True)
                 browser.shot(shots / "loaded.png")
