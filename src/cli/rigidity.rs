@@ -7,12 +7,12 @@ use crate::cli::run::{End, Failure, check_json, complain, print};
 use crate::cli::show::{Terminal, Voice};
 use crate::diagnostic::{Finding, passes};
 use crate::job;
-use crate::setting;
 use crate::joint::Joint;
 use crate::rigidity::{
     self, Fingerprint, Look, MOST_PAIRED, MOST_STEPS, Model, Pairing, Question,
     RigidityFinding, Stopped, SwayLimit, Verdict,
 };
+use crate::setting;
 use crate::structure::Structure;
 use crate::watch::Watch;
 use clap::builder::PossibleValue;
