@@ -52,13 +52,14 @@ def main() -> None:
     parser.add_argument("instances", nargs="*", default=STRIPS)
     parser.add_argument("--seconds", type=int, default=30)
     parser.add_argument("--seeds", type=int, default=3)
+    parser.add_argument("--first-seed", type=int, default=0)
     options = parser.parse_args()
     means: list[tuple[float, float]] = []
     with tempfile.TemporaryDirectory() as scratch:
         for name in options.instances:
             path = options.folder / f"{name}.json"
             found: tuple[list[float], list[float]] = ([], [])
-            for seed in range(options.seeds):
+            for seed in range(options.first_seed, options.first_seed + options.seeds):
                 ours = started([options.binary, "nest", str(path), "--time-limit", str(options.seconds), "--seed", str(seed), "--json", "-q", "-o", f"{scratch}/{name}"])
                 theirs = started([sys.executable, "-c", PEER, str(path), str(options.seconds), str(seed)])
                 said, cpu = ended(ours)
