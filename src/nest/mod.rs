@@ -2,8 +2,8 @@
 //!
 //! The caller gives shapes and stock and gets a [`Layout`] that has passed the exact
 //! [`check`]; how it is found is this module's own business. First a *drop* nester gives a
-//! sound layout ([`start`]). Then parts are let overlap and separated again on fewer or
-//! smaller sheets ([`search`]), and the emptiest sheet is pressed together so that a
+//! sound layout (`start`). Then parts are let overlap and separated again on fewer or
+//! smaller sheets (`search`), and the emptiest sheet is pressed together so that a
 //! rectangle of it is left over. Work is counted in evaluations, never in seconds.
 
 mod check;
