@@ -26,6 +26,18 @@ pub fn side(a: Point2, b: Point2, c: Point2) -> Side {
     }
 }
 
+/// Whether a polygon contains a point, exactly (crossings of a ray to the right).
+pub fn contains(ring: &[Point2], p: Point2) -> bool {
+    let edges = ring.iter().zip(ring.iter().cycle().skip(1));
+    let crossed = edges.filter(|(a, b)| {
+        let upward = a.y <= p.y && p.y < b.y;
+        let downward = b.y <= p.y && p.y < a.y;
+        (upward && side(**a, **b, p) == Side::Left)
+            || (downward && side(**a, **b, p) == Side::Right)
+    });
+    crossed.count() % 2 == 1
+}
+
 /// Whether the closed segments `a`–`b` and `c`–`d` share a point, exactly.
 pub fn segments_meet(a: Point2, b: Point2, c: Point2, d: Point2) -> bool {
     let (sc, sd) = (side(a, b, c), side(a, b, d));

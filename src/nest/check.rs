@@ -8,7 +8,7 @@
 //! *not* their distance: a corner that faces the middle of a long edge need not be joined
 //! to it.)
 
-use crate::geometry::predicates::{Side, segments_meet, side};
+use crate::geometry::predicates::{contains, segments_meet};
 use crate::geometry::{Point2, Vector2, trig};
 use crate::nest::{Layout, NestedSheet, Placement, Shape, Stock};
 use crate::tolerance::PLACED_MM;
@@ -256,16 +256,4 @@ impl Checked<'_> {
 /// Corners of the box around a ring.
 pub(super) fn bounds(ring: &[Point2]) -> (Point2, Point2) {
     ring.iter().fold((ring[0], ring[0]), |(low, high), p| (low.inf(p), high.sup(p)))
-}
-
-/// Whether a polygon contains a point, exactly (crossings of a ray to the right).
-pub(super) fn contains(ring: &[Point2], p: Point2) -> bool {
-    let edges = ring.iter().zip(ring.iter().cycle().skip(1));
-    let crossed = edges.filter(|(a, b)| {
-        let upward = a.y <= p.y && p.y < b.y;
-        let downward = b.y <= p.y && p.y < a.y;
-        (upward && side(**a, **b, p) == Side::Left)
-            || (downward && side(**a, **b, p) == Side::Right)
-    });
-    crossed.count() % 2 == 1
 }

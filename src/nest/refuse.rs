@@ -1,7 +1,7 @@
 //! Shapes that no layout could be checked with.
 
-use crate::geometry::predicates::{is_simple, segments_meet};
-use crate::nest::check::{bounds, contains};
+use crate::geometry::predicates::{contains, is_simple, segments_meet};
+use crate::nest::check::bounds;
 use crate::nest::pieces::area;
 use crate::nest::{NestError, Shape};
 

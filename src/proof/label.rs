@@ -1,10 +1,11 @@
 //! Which name is lettered on a part: the font's own strokes found again, in any size and
 //! turn, but not mirrored.
 
+use crate::geometry::predicates::contains;
 use crate::geometry::{Point2, Vector2};
 use crate::lettering::letter;
 use crate::proof::finding::ProofFinding;
-use crate::proof::shape::{Edges, contains};
+use crate::proof::shape::Edges;
 use crate::proof::sheets::Read;
 use crate::tolerance::{ARC_SAGITTA_MM, SAME_SHAPE_MM};
 

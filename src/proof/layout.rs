@@ -1,9 +1,10 @@
 //! Whether the drawn parts keep apart from each other and from the sheet's edge, as drawn.
 
-use crate::geometry::{Point2, predicates};
+use crate::geometry::Point2;
+use crate::geometry::predicates::{self, contains};
 use crate::proof::finding::{ProofFinding, Spot};
 use crate::proof::manifest::Stock;
-use crate::proof::shape::{Edges, bounds, contains, foot};
+use crate::proof::shape::{Edges, bounds, foot};
 use crate::tolerance::{ARC_SAGITTA_MM, SPACING_SLACK_MM};
 use std::collections::BTreeMap;
 

@@ -3,9 +3,10 @@
 
 use crate::export::LAYERS;
 use crate::geometry::Contour;
+use crate::geometry::predicates::contains;
 use crate::proof::finding::{ProofFinding, Spot};
 use crate::proof::read::{Curve, Drawing, is_cut};
-use crate::proof::shape::{Edges, contains};
+use crate::proof::shape::Edges;
 use crate::proof::sheets::{Read, finite};
 use crate::sheets::Kerf;
 use crate::tolerance::{ARC_SAGITTA_MM, IN_PLACE_MM, SAME_SHAPE_MM};

@@ -3,9 +3,9 @@
 //! Which closed line is an outline and which a hole follows from what lies in what, never
 //! from layers alone: other programs name and colour theirs as they like.
 
+use crate::geometry::predicates::contains;
 use crate::geometry::{Contour, Point2, Vertex};
 use crate::proof::read::{Curve, DrawingError, is_cut, joined, read_dxf, read_svg};
-use crate::proof::shape::contains;
 use crate::sheets::{Operation, Path};
 use crate::tolerance::ARC_SAGITTA_MM;
 

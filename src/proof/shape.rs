@@ -69,15 +69,6 @@ pub(super) fn bounds(points: impl IntoIterator<Item = Point2>) -> [Point2; 2] {
     points.into_iter().fold(empty, |[low, high], p| [low.inf(&p), high.sup(&p)])
 }
 
-/// Whether a point lies inside a polygon (even-odd); on the edge either may be said.
-pub(super) fn contains(polygon: &[Point2], p: Point2) -> bool {
-    let next = polygon.iter().cycle().skip(1);
-    let crossed = polygon.iter().zip(next).filter(|(a, b)| {
-        (a.y > p.y) != (b.y > p.y) && p.x < (b.x - a.x) * (p.y - a.y) / (b.y - a.y) + a.x
-    });
-    crossed.count() % 2 == 1
-}
-
 /// An edge is entered into so many cells at most: none in a real part is metres long.
 const MOST_STEPS: f64 = 1024.0;
 
