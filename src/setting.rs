@@ -34,7 +34,8 @@ pub(crate) fn stock(template: &Template) -> Vec<Stock> {
     sheets.collect()
 }
 
-pub(crate) fn fit(template: &Template) -> Fit {
+/// What material and joint of a template ask of parts.
+pub fn fit(template: &Template) -> Fit {
     let (material, joint, gate) = (&template.material, &template.joint, &template.gate);
     Fit {
         thickness: material.thickness_mm,
@@ -48,6 +49,10 @@ pub(crate) fn fit(template: &Template) -> Fit {
         chamfer: joint.mouth_chamfer_mm,
         chamfer_angle: joint.mouth_chamfer_deg.to_radians(),
         setback: joint.setback_mm,
+        connector_thickness: joint.connector_thickness_mm,
+        rod_diameter: joint.rod_diameter_mm,
+        disc_slot: joint.disc_slot_mm.unwrap_or(3.0 * material.thickness_mm),
+        fin_angle_least: gate.fin_angle_least_deg.to_radians(),
         crossing_warn: gate.crossing_warn_deg.to_radians(),
         crossing_least: gate.crossing_least_deg.to_radians(),
         bend_model: template.bend.model,

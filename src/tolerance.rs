@@ -122,6 +122,9 @@ pub const PROOF_LIMIT_MM: f64 = 0.01;
 /// How far folds may be off unless the template says otherwise, degrees.
 pub const PROOF_LIMIT_DEG: f64 = 0.001;
 
+/// How far a slot of a connector may be turned from its fin, degrees.
+pub const SLOT_TURN_DEG: f64 = 0.01;
+
 /// How far a corner, wall or hole is searched from where it should be, mm.
 pub const PROOF_REACH_MM: f64 = 1.5;
 
@@ -136,6 +139,12 @@ pub const SPACING_SLACK_MM: f64 = 1e-3;
 
 /// Scales of a whole drawing that differ by less are taken for equal.
 pub const SAME_SCALE: f64 = 2e-3;
+
+/// Fins whose corners differ by less have one shape, mm: a tenth of a common clearance.
+pub const CONGRUENT_MM: f64 = 0.01;
+
+/// Plates that reach into each other by less only touch, mm: rounding of planar fins.
+pub const PLATES_TOUCH_MM: f64 = 1e-3;
 
 /// A fin counts as exactly plane below this share of its diameter.
 pub const PLANAR: f64 = 1e-9;

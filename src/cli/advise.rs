@@ -8,7 +8,7 @@ use crate::cli::show::{Terminal, Voice};
 
 /// Looks for the smallest scale and prints what was tried.
 pub(super) fn run(args: &InputArgs, voice: Voice) -> Result<End, Failure> {
-    let template = input::template(&args.template)?;
+    let template = input::template(&args.template)?.with_hub_nodes(&args.hubs);
     let draft = input::structure(args)?.draft;
     let mut terminal = Terminal::new(voice, None);
     let depth = args.depth.map(|depth| [depth.below, depth.above]);

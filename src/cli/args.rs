@@ -2,6 +2,7 @@
 
 use crate::cli::coupon::{self, CouponArgs};
 use crate::cli::nest;
+use crate::cli::picture;
 use crate::cli::planarise::{PLANARISE_HELP, PlanariseArgs, PlanariseWhen};
 use crate::cli::rigidity;
 use crate::cli::verify::{self, VerifyArgs};
@@ -9,7 +10,6 @@ use crate::geometry::{Point3, Vector3};
 use crate::joint::Joint;
 use crate::structure::AxisRule;
 use crate::units::Unit;
-use clap::builder::PossibleValue;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use std::path::PathBuf;
 
@@ -128,6 +128,10 @@ pub struct InputArgs {
     #[arg(long, value_enum, default_value = "lap")]
     pub joint: Joint,
 
+    /// Nodes that get hubs although `--joint hinge` hangs all others on rods
+    #[arg(long, value_name = "I,J,..", value_delimiter = ',')]
+    pub hubs: Vec<usize>,
+
     /// Model scale
     #[arg(long, default_value = "1:1", value_parser = scale, value_name = "1:N")]
     pub scale: Scale,
@@ -187,6 +191,11 @@ pub struct MakeArgs {
     #[arg(long, value_name = "S07,S12", value_delimiter = ',')]
     pub only: Vec<String>,
 
+    /// With `--joint hinge`: put hubs on as many nodes as it takes to make it rigid, the most
+    /// useful first
+    #[arg(long)]
+    pub apply_remedies: bool,
+
     /// The structure is flexible on purpose; the reason goes on record and on every sheet
     #[arg(long, value_name = "REASON")]
     pub accept_flexible: Option<String>,
@@ -198,6 +207,10 @@ pub struct CheckArgs {
     /// What to check.
     #[command(flatten)]
     pub input: InputArgs,
+
+    /// What to draw.
+    #[command(flatten)]
+    pub drawing: picture::PictureArgs,
 
     /// Find the smallest scale at which all checks pass, and what binds
     #[arg(long)]
@@ -234,21 +247,6 @@ pub enum ExampleAction {
         #[arg(short, long, value_name = "FILE")]
         output: Option<PathBuf>,
     },
-}
-
-impl ValueEnum for Joint {
-    fn value_variants<'a>() -> &'a [Self] {
-        &[Self::Lap, Self::Hinge, Self::Hub]
-    }
-
-    fn to_possible_value(&self) -> Option<PossibleValue> {
-        let about = match self {
-            Self::Lap => "Rigid strips, half-lapped where they cross",
-            Self::Hinge => "Single fins on rods",
-            Self::Hub => "Single fins in slotted discs",
-        };
-        Some(PossibleValue::new(self.name()).help(about))
-    }
 }
 
 /// How hard to nest.

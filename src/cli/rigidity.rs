@@ -3,6 +3,7 @@
 use crate::cli::args::InputArgs;
 use crate::cli::input;
 use crate::cli::jobdir::JobDirError;
+use crate::cli::joint;
 use crate::cli::run::{End, Failure, check_json, complain, print};
 use crate::cli::show::{Terminal, Voice};
 use crate::diagnostic::{Finding, passes};
@@ -130,6 +131,7 @@ struct Case {
 
 /// Runs `rigidity`.
 pub(super) fn rigidity(args: &RigidityArgs, voice: Voice) -> Result<End, Failure> {
+    joint::may_have_hubs(&args.input, false);
     let case = match &args.linkage {
         Some(path) => linkage(path, args.input.json),
         None => structure(&args.input),
@@ -246,7 +248,7 @@ fn linkage(path: &Path, json: bool) -> Result<Result<Case, Vec<Finding>>, Failur
 }
 
 fn structure(args: &InputArgs) -> Result<Result<Case, Vec<Finding>>, Failure> {
-    let template = input::template(&args.template)?;
+    let template = input::template(&args.template)?.with_hub_nodes(&args.hubs);
     let input = input::structure(args)?;
     let mut findings = input.findings;
     let structure = match Structure::new(input.draft, &setting::tolerance(&template)) {

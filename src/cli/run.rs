@@ -1,12 +1,14 @@
 //! The commands, and the only place that writes files.
 
 use crate::cli::advise;
-use crate::cli::args::{Cli, Command, EffortLevel, InputArgs, MakeArgs};
+use crate::cli::args::{CheckArgs, Cli, Command, EffortLevel, InputArgs, MakeArgs};
 use crate::cli::coupon;
 use crate::cli::embedded;
 use crate::cli::input::{self, Input, InputError};
 use crate::cli::jobdir::{self, JobDirError, JobFile};
+use crate::cli::joint;
 use crate::cli::nest;
+use crate::cli::picture;
 use crate::cli::planarise;
 use crate::cli::rigidity;
 use crate::cli::show::{self, Terminal, Voice};
@@ -34,7 +36,6 @@ use std::process::ExitCode;
 pub(super) enum End {
     Done = 0,
     CouldNotRun = 1,
-    WrongUsage = 2,
     Refused = 3,
     Interrupted = 4,
 }
@@ -89,7 +90,7 @@ pub fn run(cli: Cli) -> ExitCode {
     let end = match cli.command {
         Command::Make(args) => make(&args, voice),
         Command::Check(args) if args.advise => advise::run(&args.input, voice),
-        Command::Check(args) => check(&args.input, voice),
+        Command::Check(args) => check(&args, voice),
         Command::Rigidity(args) => rigidity::rigidity(&args, voice),
         Command::Coupon(args) => coupon::run(&args, voice),
         Command::Verify(args) => verify::run(&args, voice),
@@ -107,18 +108,9 @@ pub fn run(cli: Cli) -> ExitCode {
         Failure::Input(error) => {
             complain(&error, &error.to_string(), json.then(|| error.findings()))
         }
-        Failure::JobDir(error) => {
-            let findings = || vec![Finding::new(&error, Place::default())];
-            complain(&error, &error.to_string(), json.then(findings))
-        }
-        Failure::Verify(error) => {
-            let findings = || vec![Finding::new(&error, Place::default())];
-            complain(&error, &error.to_string(), json.then(findings))
-        }
-        Failure::Other(error) => {
-            let findings = || vec![Finding::new(&*error, Place::default())];
-            complain(&*error, &error.to_string(), json.then(findings))
-        }
+        Failure::JobDir(error) => tell(&error, json),
+        Failure::Verify(error) => tell(&error, json),
+        Failure::Other(error) => tell(&*error, json),
         Failure::Interrupted => {
             let _ = writeln!(std::io::stderr(), "interrupted; nothing was written");
             End::Interrupted
@@ -126,6 +118,12 @@ pub fn run(cli: Cli) -> ExitCode {
         Failure::Said(end) => end,
     });
     ExitCode::from(end as u8)
+}
+
+/// As [`complain`], of an error that is its own finding.
+fn tell(error: &dyn Diagnostic, json: bool) -> End {
+    let findings = || vec![Finding::new(error, Place::default())];
+    complain(error, &error.to_string(), json.then(findings))
 }
 
 /// Says what went wrong, always; as JSON too, if it was asked for.
@@ -160,23 +158,30 @@ struct Ordered {
     terminal: Terminal,
 }
 
-fn ordered(
-    args: &InputArgs,
-    accepted_flexible: Option<&String>,
-    voice: Voice,
-) -> Result<Ordered, Failure> {
-    let template = input::template(&args.template)?;
+/// What `make` wants beyond what `check` does.
+#[derive(Default)]
+struct Wishes {
+    accepted_flexible: Option<String>,
+    apply_remedies: bool,
+}
+
+fn ordered(args: &InputArgs, wishes: Wishes, voice: Voice) -> Result<Ordered, Failure> {
+    let mut template = input::template(&args.template)?.with_hub_nodes(&args.hubs);
     let mut input = input::structure(args)?;
     let mut terminal = Terminal::new(voice, args.time_limit);
     let worst = template.gate.planarity_warn_percent / 100.0;
     planarise::when_needed(&mut input, args, worst, &mut terminal)?;
     let draft = std::mem::take(&mut input.draft);
+    if wishes.apply_remedies {
+        template = job::with_remedies(&draft, template, &mut terminal)?;
+        voice.say(&format!("hubs on nodes {:?}", template.joint.hub_nodes));
+    }
     let order = Order {
         draft,
         template: &template,
         joint: args.joint,
         effort: effort(args),
-        accepted_flexible: accepted_flexible.cloned(),
+        accepted_flexible: wishes.accepted_flexible,
     };
     let job = job::run(order, &mut terminal);
     terminal.finish();
@@ -196,28 +201,16 @@ fn effort(args: &InputArgs) -> Effort {
     Effort { trials, seed: args.seed }
 }
 
-/// A joint whose parts cannot be made yet, though the verdict would allow it, ends with a
-/// word about it.
-fn joint_not_built(joint: Joint, job: &Job) -> Option<End> {
-    (joint != Joint::Lap && passes(&job.findings)).then(|| {
-        let name = joint.name();
-        let _ = writeln!(
-            std::io::stderr(),
-            "error: parts for --joint {name} cannot be made yet; --joint lap can"
-        );
-        End::WrongUsage
-    })
-}
-
 fn make(args: &MakeArgs, voice: Voice) -> Result<End, Failure> {
+    joint::may_have_hubs(&args.input, args.apply_remedies);
     if let Some(dir) = &args.output {
         jobdir::may_be_written(dir)?;
     }
-    let mut ordered = ordered(&args.input, args.accept_flexible.as_ref(), voice)?;
+    let apply_remedies = args.apply_remedies;
+    let wishes =
+        Wishes { accepted_flexible: args.accept_flexible.clone(), apply_remedies };
+    let mut ordered = ordered(&args.input, wishes, voice)?;
     voice.findings(&ordered.job.findings);
-    if let Some(end) = joint_not_built(args.input.joint, &ordered.job) {
-        return Ok(end);
-    }
     ordered.terminal.resume("export");
     ordered.keep(args)?;
     let job = &ordered.job;
@@ -315,7 +308,7 @@ pub(super) fn named((path, bytes): (String, Vec<u8>)) -> JobFile {
 }
 
 fn summary(job: &Job, end: End, dir: &Path) -> String {
-    let parts = job.parts.len();
+    let parts: usize = job.parts.iter().map(|part| part.quantity).sum();
     let sheets = job.sheets.len();
     match end {
         End::Done => {
@@ -338,11 +331,8 @@ impl Ordered {
         if args.only.is_empty() || self.job.parts.is_empty() {
             return Ok(());
         }
-        let names = replacement::named(&self.job, &args.only).map_err(|error| {
-            let findings = || vec![Finding::new(&error, Place::default())];
-            let json = args.input.json.then(findings);
-            Failure::Said(complain(&error, &error.to_string(), json))
-        })?;
+        let names = replacement::named(&self.job, &args.only)
+            .map_err(|error| Failure::Said(tell(&error, args.input.json)))?;
         let (job, effort) = (std::mem::take(&mut self.job), effort(&args.input));
         self.job =
             replacement::only(job, names, &self.template, &effort, &mut self.terminal)?;
@@ -375,8 +365,11 @@ impl Ordered {
     }
 }
 
-fn check(args: &InputArgs, voice: Voice) -> Result<End, Failure> {
-    let ordered = ordered(args, None, voice)?;
+fn check(check: &CheckArgs, voice: Voice) -> Result<End, Failure> {
+    let args = &check.input;
+    joint::may_have_hubs(args, false);
+    let ordered = ordered(args, Wishes::default(), voice)?;
+    picture::draw(&check.drawing, &ordered.job, &ordered.template)?;
     let findings = &ordered.job.findings;
     voice.findings(findings);
     let fine = passes(findings);

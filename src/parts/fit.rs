@@ -25,6 +25,14 @@ pub struct Fit {
     pub chamfer_angle: f64,
     /// Extra gap of a strip end that is set back.
     pub setback: f64,
+    /// Thickness of a disc or eye plate.
+    pub connector_thickness: f64,
+    /// Diameter of the rod through a connector.
+    pub rod_diameter: f64,
+    /// Length of a disc's windows, and of a lap with an eye plate, where there is room.
+    pub disc_slot: f64,
+    /// Angle between neighbouring fins of a connector that is refused below this.
+    pub fin_angle_least: f64,
     /// Crossing angle that is warned of below this.
     pub crossing_warn: f64,
     /// Crossing angle that is refused below this.
@@ -40,12 +48,18 @@ impl Fit {
     /// How far from the axis a fin stays clear of another one at the angle `between`
     /// (0, π) to it, both as thick as the sheet (fabrication notes §4.1).
     pub fn clear_distance(&self, between: f64) -> f64 {
-        let (sin, cos) =
-            (crate::geometry::trig::sin(between), crate::geometry::trig::cos(between));
-        if sin <= 0.0 {
-            return 0.0;
-        }
-        ((self.thickness + self.thickness * cos) / (2.0 * sin)).max(0.0)
+        crate::parts::setback::clear_of(self.thickness, self.thickness, between)
+    }
+
+    /// Half the clearance: what a plate has on each side of its cut.
+    pub fn gap(&self) -> f64 {
+        self.clearance.max(0.0) / 2.0
+    }
+
+    /// How far a plate reaches into the rounded end of its cut before its corners touch.
+    pub fn bite(&self) -> f64 {
+        let radius = self.relief.min((self.thickness + self.clearance) / 2.0);
+        (2.0 * radius * self.gap() - self.gap() * self.gap()).max(0.0).sqrt()
     }
 
     /// Half the thickness of a strip with this kink, seen along the fins that cross it.

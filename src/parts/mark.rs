@@ -32,7 +32,7 @@ pub struct Marking {
 }
 
 /// Least distance between a mark and a cut, mm.
-const GAP: f64 = 1.0;
+pub(super) const GAP: f64 = 1.0;
 
 /// The name is repeated after this many fins.
 const NAME_EVERY: usize = 6;
@@ -129,9 +129,9 @@ enum Side {
 
 /// Where in its cell a text would best stand: shares of the cell along the fin and up.
 #[derive(Clone, Copy)]
-struct Wish {
-    along: f64,
-    up: f64,
+pub(super) struct Wish {
+    pub along: f64,
+    pub up: f64,
 }
 
 /// At the other edge.
@@ -181,7 +181,7 @@ fn fold_lines<'a>(
 }
 
 /// The part of a fin that can be written on, in the fin's own frame.
-struct Cell {
+pub(super) struct Cell {
     origin: Point2,
     along: Vector2,
     up: Vector2,
@@ -192,7 +192,7 @@ struct Cell {
 }
 
 impl Cell {
-    fn new(piece: &Piece, fin: usize) -> Self {
+    pub(super) fn new(piece: &Piece, fin: usize) -> Self {
         let (a, b) = (&piece.axes[fin], &piece.axes[fin + 1]);
         let last = piece.axes.len() - 1;
         let left = clear(piece, fin, fin == 0, 0, |slit| slit.after);
@@ -215,7 +215,12 @@ impl Cell {
     }
 
     /// Strokes of a text as near as can be to its wished place, if it fits at all.
-    fn write(&mut self, text: &str, wish: Wish, height: f64) -> Option<Vec<Vec<Point2>>> {
+    pub(super) fn write(
+        &mut self,
+        text: &str,
+        wish: Wish,
+        height: f64,
+    ) -> Option<Vec<Vec<Point2>>> {
         [(1.0, false), (1.0, true), (0.8, false), (0.8, true), (0.6, false), (0.6, true)]
             .into_iter()
             .find_map(|(share, upright)| self.place(text, wish, height * share, upright))

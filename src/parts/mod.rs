@@ -5,6 +5,7 @@
 //! needs. Kerf is not its business, nor where parts lie on a sheet.
 
 mod bend;
+mod connector;
 mod coupon;
 mod finding;
 mod fit;
@@ -16,11 +17,16 @@ mod outline;
 mod part;
 mod rank;
 mod seam;
+mod setback;
 mod splice;
 mod strength;
 mod unfold;
 
 pub use bend::bends;
+pub use connector::{
+    Around, Connected, Connector, ConnectorFinding, Copy, Hinge, Hub, Spoke, Step,
+    collisions, connected, copies, inner_radius, levers,
+};
 pub use coupon::{Fitted, Mark as CouponMark, coupon};
 pub use finding::PartFinding;
 pub use fit::Fit;
@@ -29,7 +35,8 @@ pub use insertion::{Insertion, insertion};
 pub use joint::{End, Joinery, Joints, Opening, Slit, join};
 pub use mark::{FoldMarks, Marking};
 pub use outline::{Closure, Piece, outline};
-pub use part::{Body, Mark, MarkKind, Part, StripBody};
+pub use part::{Body, ConnectorBody, FinBody, Mark, MarkKind, Part, StripBody};
+pub use setback::{clear_of, setback};
 pub use unfold::{FlatAxis, FlatStrip, Fold, unfold};
 
 use crate::geometry::{Point2, Region, predicates};
@@ -233,8 +240,7 @@ pub fn tight_insertions(
 }
 
 fn crossing_outline(part: &Part) -> Option<PartFinding> {
-    let Body::Strip(body) = &part.body else { return None };
     let simple = predicates::is_simple(&part.region.outline.flattened(ARC_SAGITTA_MM));
-    let node = body.axes[0].node;
+    let node = *part.body.nodes().first()?;
     (!simple).then(|| PartFinding::OutlineCrossesItself { part: part.id.clone(), node })
 }

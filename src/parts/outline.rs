@@ -76,10 +76,21 @@ fn inner(cut: &[Vertex]) -> Vec<Vertex> {
 }
 
 /// A chain of corners walked the other way.
-fn reversed(chain: &[Vertex]) -> Vec<Vertex> {
+pub(super) fn reversed(chain: &[Vertex]) -> Vec<Vertex> {
     let count = chain.len();
     let bulge = |k: usize| if k > 0 { -chain[k - 1].bulge } else { 0.0 };
     (0..count).rev().map(|k| Vertex::arc(chain[k].point, bulge(k))).collect()
+}
+
+/// Takes out corners that lie on the one before, as where a relief has no radius.
+pub(super) fn without_doubles(chain: &mut Vec<Vertex>) {
+    chain.dedup_by(|after, before| {
+        let same = after.point == before.point;
+        if same {
+            before.bulge = after.bulge;
+        }
+        same
+    });
 }
 
 /// Where the edges stop at one end of a piece.

@@ -1,6 +1,7 @@
 //! A part: one flat shape to be cut, with its marks and its way back into space.
 
 use crate::geometry::{Point2, Region};
+use crate::parts::connector::{Connector, Copy};
 use crate::parts::joint::Slit;
 use crate::parts::unfold::{FlatAxis, Fold};
 
@@ -35,8 +36,68 @@ impl Part {
 pub enum Body {
     /// A run of fins.
     Strip(StripBody),
+    /// A single fin.
+    Fin(FinBody),
+    /// The plates of a connector.
+    Connector(ConnectorBody),
     /// A piece to try a material with, no part of a structure.
     Coupon,
+}
+
+impl Body {
+    /// The word for it in files.
+    pub const fn kind(&self) -> &'static str {
+        match self {
+            Self::Strip(_) => "strip",
+            Self::Fin(_) => "fin",
+            Self::Connector(_) => "connector",
+            Self::Coupon => "coupon",
+        }
+    }
+
+    /// The nodes it reaches, in order along it.
+    pub fn nodes(&self) -> Vec<usize> {
+        match self {
+            Self::Strip(strip) => strip.axes.iter().map(|axis| axis.node).collect(),
+            Self::Fin(fin) => fin.nodes.to_vec(),
+            Self::Connector(connector) => vec![connector.node()],
+            Self::Coupon => Vec::new(),
+        }
+    }
+}
+
+/// A single fin, flat.
+#[derive(Debug, Clone, PartialEq)]
+pub struct FinBody {
+    /// Its nodes, from left to right.
+    pub nodes: [usize; 2],
+    /// Where their axes lie.
+    pub axes: Vec<FlatAxis>,
+    /// How far it stops from each axis, mm.
+    pub setbacks: [f64; 2],
+    /// Fins of one shape share this name.
+    pub shape: String,
+}
+
+/// The plates of a node; their origin is the node axis. A disc's first fin runs along x, an
+/// eye's only one.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ConnectorBody {
+    /// What they are.
+    pub connector: Connector,
+    /// Names of the fins, in the order of the connector's spokes.
+    pub fins: Vec<String>,
+    /// Diameter of the rod through them, mm.
+    pub rod: f64,
+    /// Where they sit, from below.
+    pub copies: Vec<Copy>,
+}
+
+impl ConnectorBody {
+    /// The node.
+    pub fn node(&self) -> usize {
+        self.connector.around().node
+    }
 }
 
 /// A run of fins, flat.

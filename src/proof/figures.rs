@@ -21,6 +21,8 @@ pub struct Worst {
     pub slit_play_least_mm: f64,
     /// Most room in a slit beside what comes in, mm.
     pub slit_play_most_mm: f64,
+    /// Largest difference between the angle of a slot of a connector and the fin's, degrees.
+    pub slot_deg: f64,
     /// Largest distance between a drawn outline and the part's shape, mm.
     pub outline_mm: f64,
     /// Largest distance of a part from where it is listed, mm.

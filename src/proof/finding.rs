@@ -255,6 +255,18 @@ pub enum ProofFinding {
     )]
     FoldWrong { spot: Spot, listed_deg: f64, needed_deg: f64 },
 
+    #[error(
+        "{spot}: {fin} stands at {found_deg:.3}°, the structure needs {needed_deg:.3}°"
+    )]
+    #[diagnostic(
+        code(proof::slot_turned),
+        help(
+            "angles count counter-clockwise from the connector's first fin, seen from above; a \
+             wrong fin or a turned disc shows so too; make the job again"
+        )
+    )]
+    SlotTurned { spot: Spot, fin: String, found_deg: f64, needed_deg: f64 },
+
     #[error("{spot}: the fin to node {to} is {by_mm:.3} mm off the one in the structure")]
     #[diagnostic(code(proof::fin_differs), help("make the job again"))]
     FinDiffers { spot: Spot, to: usize, by_mm: f64 },
@@ -332,6 +344,7 @@ impl ProofFinding {
             | Self::EndInTheWay { spot, .. }
             | Self::FoldWrong { spot, .. }
             | Self::FinDiffers { spot, .. }
+            | Self::SlotTurned { spot, .. }
             | Self::NodeGap { spot, .. }
             | Self::PartsOverlap { spot }
             | Self::PartsTooNear { spot, .. }

@@ -5,6 +5,7 @@ use crate::export::LAYERS;
 use crate::geometry::Contour;
 use crate::geometry::predicates::contains;
 use crate::proof::finding::{ProofFinding, Spot};
+use crate::proof::matching::Found;
 use crate::proof::read::{Curve, Drawing, is_cut};
 use crate::proof::shape::Edges;
 use crate::proof::sheets::{Read, finite};
@@ -49,29 +50,36 @@ impl Read<'_> {
         findings
     }
 
+    /// The holes drawn in a part, on the sheet, clockwise, kerf undone.
+    pub(super) fn holes_of(&self, found: &Found) -> Vec<Contour> {
+        let drawn = &self.matching.drawn[found.drawn];
+        let Some(drawing) = &self.files.sheets[drawn.sheet].1 else { return Vec::new() };
+        let hull = drawn.contour.flattened(ARC_SAGITTA_MM);
+        let inner = drawing.curves.iter().filter(|c| c.layer == "CUT_INNER" && c.closed);
+        let inner = inner.filter(|c| contains(&hull, c.vertices[0].point));
+        inner
+            .map(|hole| {
+                let contour = hole.contour();
+                let ccw = contour.signed_area() > 0.0;
+                let contour = if ccw { contour.reversed() } else { contour };
+                // Drawn clockwise, a hole grows back by what its line was drawn inside.
+                Kerf::from_width_mm(found.kerf).undone(&contour)
+            })
+            .collect()
+    }
+
     /// Holes that are drawn in a part against those listed.
     pub(super) fn holes(&self) -> Vec<ProofFinding> {
         let mut findings = Vec::new();
         for found in &self.found {
-            let drawn = &self.matching.drawn[found.drawn];
-            let Some(drawing) = &self.files.sheets[drawn.sheet].1 else { continue };
             let shape = &self.matching.shapes[self.matching.places[found.place].shape];
-            let hull = drawn.contour.flattened(ARC_SAGITTA_MM);
-            let inner =
-                drawing.curves.iter().filter(|c| c.layer == "CUT_INNER" && c.closed);
-            let inner: Vec<&Curve> =
-                inner.filter(|c| contains(&hull, c.vertices[0].point)).collect();
+            let inner = self.holes_of(found);
             let listed = shape.part.holes.len();
             if inner.len() != listed {
                 let (spot, found) = (self.spot(found), inner.len());
                 findings.push(ProofFinding::HolesDiffer { spot, found, listed });
             }
-            for hole in inner {
-                let contour = hole.contour();
-                let ccw = contour.signed_area() > 0.0;
-                let contour = if ccw { contour.reversed() } else { contour };
-                // Drawn clockwise, a hole grows back by what its line was drawn inside.
-                let nominal = Kerf::from_width_mm(found.kerf).undone(&contour);
+            for nominal in inner {
                 let off = nominal
                     .vertices
                     .iter()

@@ -83,6 +83,34 @@ pub(super) struct Part {
     /// A run of fins; single fins are runs of one.
     #[serde(alias = "fin")]
     pub strip: Option<Strip>,
+    /// What it holds, if it is a connector.
+    #[serde(default)]
+    pub connector: Option<Connector>,
+}
+
+/// The plates of a node.
+#[derive(Deserialize, Clone)]
+pub(super) struct Connector {
+    pub kind: Kind,
+    pub node: usize,
+    #[serde(default)]
+    pub fins: Vec<(String, f64)>,
+    #[serde(default)]
+    pub slots: Vec<Slot>,
+}
+
+#[derive(Deserialize, Clone, Copy, PartialEq, Eq)]
+#[serde(rename_all = "lowercase")]
+pub(super) enum Kind {
+    Hub,
+    Hinge,
+}
+
+/// Where a fin stands in its connector.
+#[derive(Deserialize, Clone)]
+pub(super) struct Slot {
+    pub fin: String,
+    pub angle_deg: f64,
 }
 
 #[derive(Deserialize, Clone)]

@@ -10,7 +10,7 @@ use crate::geometry::{Contour, Point2, Vector2};
 use crate::proof::manifest::{Manifest, Part};
 use crate::proof::shape::{Edges, Motion, bounds};
 use crate::sheets::Kerf;
-use crate::tolerance::{PROOF_REACH_MM, SAME_SHAPE_MM};
+use crate::tolerance::{ARC_SAGITTA_MM, PROOF_REACH_MM, SAME_SHAPE_MM};
 
 /// Share of the corners that must agree.
 const ENOUGH: f64 = 0.4;
@@ -72,7 +72,8 @@ impl Drawn {
     pub(super) fn new(sheet: usize, contour: Contour) -> Self {
         let area = contour.signed_area();
         let contour = if area < 0.0 { contour.reversed() } else { contour };
-        let bounds = bounds(contour.vertices.iter().map(|vertex| vertex.point));
+        // Arcs may reach farther than their ends: a disc has four corners only.
+        let bounds = bounds(contour.flattened(ARC_SAGITTA_MM));
         Self { sheet, contour, bounds, area: area.abs() }
     }
 }

@@ -9,6 +9,7 @@
 //! It does not fold connectors (discs, hubs): parts without axes are proved as shapes only,
 //! [`Worst::parts`] counts them too. A bent strip is taken as sharply folded at its axes.
 
+mod connectors;
 mod figures;
 mod files;
 mod finding;
@@ -208,6 +209,8 @@ impl Group<'_> {
             if let Some(structure) = self.structure {
                 let refolded = strips::refold(read, structure, &mut worst);
                 found.extend(refolded.findings);
+                let turned = connectors::check(read, structure, &mut worst);
+                found.extend(turned);
                 if k == 0 {
                     (proof.nodes, proof.slits) = (refolded.nodes, refolded.slits);
                 }

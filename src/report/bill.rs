@@ -2,32 +2,29 @@
 
 use crate::geometry::Contour;
 use crate::job::Job;
-use crate::parts::Body;
-use std::collections::BTreeMap;
+use crate::report::connectors::hardware;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write;
 
-/// One line per part: what it is, how large, on which sheet, which nodes.
+/// One line per part: what it is, how large, on which sheet, which nodes; then what is
+/// bought besides.
 pub fn bill(job: &Job, material: &str) -> String {
-    let sheets: BTreeMap<usize, &str> = job
-        .sheets
-        .iter()
-        .zip(&job.layout.sheets)
-        .flat_map(|(sheet, nested)| {
-            nested.placements.iter().map(|p| (p.shape, sheet.id.as_str()))
-        })
-        .collect();
+    let mut sheets: BTreeMap<usize, BTreeSet<&str>> = BTreeMap::new();
+    for (sheet, nested) in job.sheets.iter().zip(&job.layout.sheets) {
+        for placement in &nested.placements {
+            sheets.entry(placement.shape).or_default().insert(&sheet.id);
+        }
+    }
     let mut text = String::from(
         "part,kind,quantity,material,length_mm,height_mm,area_mm2,cut_length_mm,sheet,nodes\n",
     );
     for (index, part) in job.parts.iter().enumerate() {
-        let sheet = sheets.get(&index).copied().unwrap_or_default();
+        let sheet = sheets.get(&index).into_iter().flatten().copied();
+        let sheet = sheet.collect::<Vec<_>>().join(" ");
         let [length, height] = part.extent();
         let cut: f64 = part.region.contours().map(Contour::length).sum();
-        let (kind, axes) = match &part.body {
-            Body::Strip(body) => ("strip", body.axes.as_slice()),
-            Body::Coupon => ("coupon", [].as_slice()),
-        };
-        let nodes: Vec<String> = axes.iter().map(|a| a.node.to_string()).collect();
+        let kind = part.body.kind();
+        let nodes = joined(&part.body.nodes());
         // Writing to a string cannot fail.
         let _ = writeln!(
             text,
@@ -36,10 +33,20 @@ pub fn bill(job: &Job, material: &str) -> String {
             part.quantity,
             quoted(material),
             part.region.area(),
-            nodes.join(" ")
+            nodes
         );
     }
+    for item in hardware(&job.parts) {
+        let length = item.length.map(|mm| format!("{mm}.0")).unwrap_or_default();
+        let (name, nodes) = (item.name(), joined(&item.nodes));
+        let (kind, quantity) = (item.kind, item.quantity);
+        let _ = writeln!(text, "{name},{kind},{quantity},steel,{length},,,,,{nodes}");
+    }
     text
+}
+
+fn joined(nodes: &[usize]) -> String {
+    nodes.iter().map(usize::to_string).collect::<Vec<_>>().join(" ")
 }
 
 /// A CSV field.

@@ -1,16 +1,38 @@
 //! Which part, step and sheet each fin of a job belongs to, for those who draw it.
 
+use crate::geometry::Point3;
 use crate::job::Job;
-use crate::parts::{Body, Part};
+use crate::parts::{Body, Copy, Part};
+use crate::structure::Structure;
 use std::collections::BTreeMap;
 
 /// The fins of a part by their nodes, the smaller one first; a fin that is spliced is on
 /// both of its parts.
 pub(super) fn of_part(part: &Part) -> Vec<[usize; 2]> {
-    let Body::Strip(body) = &part.body else { return Vec::new() };
+    let body = match &part.body {
+        Body::Strip(body) => body,
+        Body::Fin(fin) => return vec![fin.nodes],
+        Body::Connector(_) | Body::Coupon => return Vec::new(),
+    };
     let run = body.axes.windows(2).map(|pair| [pair[0].node, pair[1].node]);
     let spliced = body.splices.iter().copied();
     run.chain(spliced).map(|[i, j]| [i.min(j), i.max(j)]).collect()
+}
+
+/// The plates of a connector as squares across the axis.
+pub(super) fn plates(structure: &Structure, part: &Part) -> Vec<[Point3; 4]> {
+    let Body::Connector(body) = &part.body else { return Vec::new() };
+    let node = &structure.nodes()[body.node()];
+    let spoke = body.connector.around().spokes.first();
+    let Some(out) = spoke.map(|spoke| structure.direction(body.node(), spoke.to)) else {
+        return Vec::new();
+    };
+    let (radius, side) = (body.connector.radius(), node.axis.cross(&out));
+    let plate = |copy: &Copy| {
+        let center = node.position + node.axis * copy.height;
+        [out, side, -out, -side].map(|way| center + way * radius)
+    };
+    body.copies.iter().map(plate).collect()
 }
 
 /// The part of each fin of the structure, if it is on one.

@@ -8,10 +8,12 @@ use crate::nest::{NestedSheet, Stock};
 use crate::order::{Format, Order};
 use crate::parts::{self, Body, FlatAxis, Opening, Part, Slit, StripBody};
 use crate::proof::Limits;
+use crate::report::connectors;
 use crate::sheets::{Operation, Path, Sheet};
 use crate::template::Template;
 use crate::tolerance::ARC_SAGITTA_MM;
 use serde_json::{Value, json};
+use std::collections::BTreeMap;
 
 /// Where a job came from.
 #[derive(Debug, Clone, PartialEq)]
@@ -60,7 +62,11 @@ pub fn manifest(job: &Job, source: &Source) -> Value {
         "parts": job.parts.iter().map(part).collect::<Vec<_>>(),
         "sheets": sheets(job),
         "order": job.order.as_ref().map(|order| ordered(job, order)),
-        "assembly": assembly(job, source.template),
+        "assembly": match job.steps.is_empty() {
+            true => assembly(job, source.template),
+            false => connectors::assembly(job),
+        },
+        "hardware": connectors::bought(&job.parts),
         "totals": totals(job, source.template),
     })
 }
@@ -75,11 +81,11 @@ fn rounded(value: f64, places: f64) -> f64 {
     (value * places).round() / places + 0.0
 }
 
-fn mm(value: f64) -> f64 {
+pub(super) fn mm(value: f64) -> f64 {
     rounded(value, 1e6)
 }
 
-fn degrees(radians: f64) -> f64 {
+pub(super) fn degrees(radians: f64) -> f64 {
     rounded(radians.to_degrees(), 1e7)
 }
 
@@ -102,22 +108,27 @@ fn stock(stock: &Stock) -> Value {
 }
 
 fn part(part: &Part) -> Value {
-    let (kind, strip) = match &part.body {
-        Body::Strip(body) => ("strip", Some(strip(body))),
-        Body::Coupon => ("coupon", None),
-    };
     let cut_length: f64 = part.region.contours().map(Contour::length).sum();
-    json!({
+    let mut value = json!({
         "id": part.id,
-        "kind": kind,
+        "kind": part.body.kind(),
         "quantity": part.quantity,
         "label": part.id,
         "outline": ring(&part.region.outline),
         "holes": part.region.holes.iter().map(ring).collect::<Vec<_>>(),
         "area": mm(part.region.area()),
         "cut_length": mm(cut_length),
-        "strip": strip,
-    })
+    });
+    match &part.body {
+        Body::Strip(body) => value["strip"] = strip(body),
+        Body::Fin(body) => {
+            value["shape"] = json!(body.shape);
+            value["fin"] = connectors::fin(body);
+        }
+        Body::Connector(body) => value["connector"] = connectors::connector(body),
+        Body::Coupon => value["strip"] = Value::Null,
+    }
+    value
 }
 
 fn strip(body: &StripBody) -> Value {
@@ -133,7 +144,7 @@ fn strip(body: &StripBody) -> Value {
     })
 }
 
-fn axis(axis: &FlatAxis) -> Value {
+pub(super) fn axis(axis: &FlatAxis) -> Value {
     json!({"node": axis.node, "bottom": point(axis.bottom()), "top": point(axis.top())})
 }
 
@@ -151,10 +162,19 @@ fn slit(slit: &Slit, partner: &str) -> Value {
 
 fn sheets(job: &Job) -> Vec<Value> {
     let pairs = job.sheets.iter().zip(&job.layout.sheets);
-    pairs.map(|(sheet, nested)| sheet_entry(job, sheet, nested)).collect()
+    let mut copies = Copies::default();
+    pairs.map(|(sheet, nested)| sheet_entry(job, sheet, nested, &mut copies)).collect()
 }
 
-fn sheet_entry(job: &Job, sheet: &Sheet, nested: &NestedSheet) -> Value {
+/// How many copies of each part have been met.
+type Copies = BTreeMap<usize, usize>;
+
+fn sheet_entry(
+    job: &Job,
+    sheet: &Sheet,
+    nested: &NestedSheet,
+    copies: &mut Copies,
+) -> Value {
     let area =
         |placement: &crate::nest::Placement| job.parts[placement.shape].region.area();
     let used: f64 = nested.placements.iter().map(area).sum();
@@ -165,15 +185,17 @@ fn sheet_entry(job: &Job, sheet: &Sheet, nested: &NestedSheet) -> Value {
         "height": sheet.height,
         "files": {"dxf": file("dxf"), "svg": file("svg"), "png": file("png")},
         "utilisation": mm(used / (sheet.width * sheet.height)),
-        "placements": placements(job, nested),
+        "placements": placements(job, nested, copies),
     })
 }
 
-fn placements(job: &Job, nested: &NestedSheet) -> Vec<Value> {
+fn placements(job: &Job, nested: &NestedSheet, copies: &mut Copies) -> Vec<Value> {
     let placements = nested.placements.iter().map(|p| {
+        let copy = copies.entry(p.shape).or_default();
+        *copy += 1;
         json!({
             "part": job.parts[p.shape].id,
-            "copy": 1,
+            "copy": copy,
             "x": mm(p.x),
             "y": mm(p.y),
             "angle_deg": degrees(p.angle),
@@ -184,6 +206,7 @@ fn placements(job: &Job, nested: &NestedSheet) -> Vec<Value> {
 
 /// The files for a service, with where parts lie in them.
 fn ordered(job: &Job, order: &Order) -> Value {
+    let mut copies = Copies::default();
     let sheets = order.sheets.iter().zip(&order.layout.sheets).map(|(sheet, nested)| {
         json!({
             "id": sheet.id,
@@ -193,7 +216,7 @@ fn ordered(job: &Job, order: &Order) -> Value {
                 "dxf": order.path(sheet, Format::Dxf),
                 "svg": order.path(sheet, Format::Svg),
             },
-            "placements": placements(job, nested),
+            "placements": placements(job, nested, &mut copies),
         })
     });
     json!({
@@ -209,7 +232,7 @@ fn ordered(job: &Job, order: &Order) -> Value {
 fn assembly(job: &Job, template: &Template) -> Vec<Value> {
     let strips = job.parts.iter().filter_map(|part| match &part.body {
         Body::Strip(body) => Some((part, body)),
-        Body::Coupon => None,
+        _ => None,
     });
     let step = |(k, (part, body)): (usize, (&Part, &StripBody))| {
         let onto = body.slits.iter().filter(|(slit, _)| slit.from == Opening::Bottom);

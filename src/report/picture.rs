@@ -8,7 +8,7 @@ use crate::structure::Structure;
 /// Where pictures are seen from: radians around and up.
 const FROM: [f64; 2] = [-1.1, 0.6];
 
-/// A fin as it is seen.
+/// A fin or a plate of a connector as it is seen.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Panel {
     /// Index of its part.
@@ -17,7 +17,7 @@ pub(super) struct Panel {
     pub corners: [Point2; 4],
 }
 
-/// All fins that are on parts, the farthest first.
+/// All fins that are on parts and all plates, the farthest first.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Picture {
     /// Far to near.
@@ -32,8 +32,9 @@ impl Picture {
         let view = View::new();
         let mut panels: Vec<(f64, Panel)> = Vec::new();
         for (part, made) in job.parts.iter().enumerate() {
-            for fin in fins::of_part(made) {
-                let corners = structure.corners(fin).map(|p| p.coords);
+            let fins = fins::of_part(made).into_iter().map(|fin| structure.corners(fin));
+            for corners in fins.chain(fins::plates(structure, made)) {
+                let corners = corners.map(|p| p.coords);
                 let depth = corners.iter().map(|p| p.dot(&view.toward)).sum();
                 panels.push((
                     depth,

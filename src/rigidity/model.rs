@@ -91,14 +91,35 @@ impl Model {
         joint: Joint,
         unheld: &BTreeSet<(usize, usize)>,
     ) -> Self {
-        let (mut bodies, mut on) = match joint {
-            Joint::Lap => strips(structure, unheld),
-            Joint::Hinge | Joint::Hub => fins(structure),
-        };
-        let mut slots = Vec::new();
-        if joint == Joint::Hub {
-            slots = add_hubs(structure, &mut bodies, &mut on);
+        match joint {
+            Joint::Lap => {
+                let (bodies, on) = strips(structure, unheld);
+                Self::joined(structure, bodies, on, Vec::new())
+            }
+            Joint::Hinge => Self::of_fins(structure, &BTreeMap::new()),
+            Joint::Hub => {
+                let all = 0..structure.nodes().len();
+                let lever = |node: usize| (node, structure.nodes()[node].height() / 2.0);
+                Self::of_fins(structure, &all.map(lever).collect())
+            }
         }
+    }
+
+    /// A structure of single fins: in hubs on the nodes that `levers` names, on rods
+    /// elsewhere. A lever, mm, is how far from the axis the slot holds its fin; it is never
+    /// taken for more than a third of the fin.
+    pub fn of_fins(structure: &Structure, levers: &BTreeMap<usize, f64>) -> Self {
+        let (mut bodies, mut on) = fins(structure);
+        let slots = add_hubs(structure, levers, &mut bodies, &mut on);
+        Self::joined(structure, bodies, on, slots)
+    }
+
+    fn joined(
+        structure: &Structure,
+        bodies: Vec<Body>,
+        on: On,
+        slots: Vec<Knot>,
+    ) -> Self {
         let fixed: BTreeSet<usize> = structure.fixed().iter().copied().collect();
         let mut knots = Vec::new();
         for (node, bodies) in on {
@@ -197,18 +218,23 @@ fn fins(structure: &Structure) -> (Vec<Body>, On) {
     (structure.fins().iter().copied().map(Body::Fin).collect(), on)
 }
 
-/// A hub on every node where fins meet, and a slot in it for each of them, at a third of
-/// the way along the fin or half the axis, whichever is less.
-fn add_hubs(structure: &Structure, bodies: &mut Vec<Body>, on: &mut On) -> Vec<Knot> {
+/// A hub on every node that has a lever, and a slot in it for each fin.
+fn add_hubs(
+    structure: &Structure,
+    levers: &BTreeMap<usize, f64>,
+    bodies: &mut Vec<Body>,
+    on: &mut On,
+) -> Vec<Knot> {
     let mut slots = Vec::new();
     for (&node, fins) in on.iter_mut() {
+        let Some(&lever) = levers.get(&node) else { continue };
         let hub = bodies.len();
         let at = &structure.nodes()[node];
         for &fin in fins.iter() {
             let Body::Fin([i, j]) = bodies[fin] else { continue };
             let to = if i == node { j } else { i };
             let length = (structure.nodes()[to].position - at.position).norm();
-            let out = (at.height() / 2.0).min(length / 3.0);
+            let out = lever.min(length / 3.0);
             let point = at.position + structure.direction(node, to) * out;
             let bodies = vec![fin, hub];
             slots.push(Knot {

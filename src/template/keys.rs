@@ -13,6 +13,8 @@ enum Kind {
     Whole,
     Flag,
     Text,
+    /// A list of node numbers.
+    Nodes,
     /// One of these words.
     Word(&'static [&'static str]),
 }
@@ -63,6 +65,8 @@ const JOINT: &[Key] = &[
     need("setback_mm", Kind::Number(0.0, 50.0)),
     need("connector_thickness_mm", Kind::Number(0.05, 50.0)),
     need("rod_diameter_mm", Kind::Number(0.1, 100.0)),
+    may("disc_slot_mm", Kind::Number(1.0, 500.0)),
+    may("hub_nodes", Kind::Nodes),
 ];
 const SHEET: &[Key] = &[
     need("width_mm", Kind::Number(10.0, 1e5)),
@@ -89,6 +93,7 @@ const GATE: &[Key] = &[
     may("planarity_limit_percent", Kind::Number(0.0, 5.0)),
     may("crossing_warn_deg", Kind::Number(0.0, 90.0)),
     may("crossing_least_deg", Kind::Number(5.0, 90.0)),
+    may("fin_angle_least_deg", Kind::Number(5.0, 120.0)),
     may("proof_mm", Kind::Number(0.001, 1.0)),
     may("proof_deg", Kind::Number(0.0001, 5.0)),
 ];
@@ -217,6 +222,8 @@ fn value_fault(key: &Key, value: &Value, line: usize) -> Option<Fault> {
         (Kind::Whole, ..) => "a whole number",
         (Kind::Flag, _, Value::Boolean(_)) => return None,
         (Kind::Flag, ..) => "true or false",
+        (Kind::Nodes, _, Value::Array(list)) if list.iter().all(is_node) => return None,
+        (Kind::Nodes, ..) => "a list of node numbers, such as [3, 17]",
         (Kind::Text, _, Value::String(_)) => return None,
         (Kind::Text, ..) => "a text in quotes",
         (Kind::Word(words), _, Value::String(word)) if words.contains(&word.as_str()) => {
@@ -234,6 +241,10 @@ fn value_fault(key: &Key, value: &Value, line: usize) -> Option<Fault> {
         found: value.to_string(),
         wanted,
     })
+}
+
+fn is_node(value: &Value) -> bool {
+    value.as_integer().is_some_and(|node| node >= 0)
 }
 
 /// Line of a key in its table, from 1; 0 if it cannot be found (inline tables).

@@ -97,6 +97,10 @@ pub struct Joint {
     pub setback_mm: f64,
     pub connector_thickness_mm: f64,
     pub rod_diameter_mm: f64,
+    #[serde(default)]
+    pub disc_slot_mm: Option<f64>,
+    #[serde(default)]
+    pub hub_nodes: Vec<usize>,
 }
 
 /// A size of sheet in stock.
@@ -146,6 +150,7 @@ pub struct Gate {
     pub planarity_limit_percent: f64,
     pub crossing_warn_deg: f64,
     pub crossing_least_deg: f64,
+    pub fin_angle_least_deg: f64,
     pub proof_mm: f64,
     pub proof_deg: f64,
 }
@@ -159,6 +164,7 @@ impl Default for Gate {
             planarity_limit_percent: 0.1,
             crossing_warn_deg: 45.0,
             crossing_least_deg: 30.0,
+            fin_angle_least_deg: 25.0,
             proof_mm: PROOF_LIMIT_MM,
             proof_deg: PROOF_LIMIT_DEG,
         }
@@ -179,6 +185,21 @@ const EMBEDDED: [(&str, &str); 7] = [
     ("mdf-3", include_str!("../../templates/mdf-3.toml")),
     ("card-1.5", include_str!("../../templates/card-1.5.toml")),
 ];
+
+impl Template {
+    /// The template with hubs on more nodes; its text says so, for it is what a verdict is
+    /// about.
+    #[must_use]
+    pub fn with_hub_nodes(mut self, nodes: &[usize]) -> Self {
+        if !nodes.is_empty() {
+            self.joint.hub_nodes.extend(nodes);
+            self.joint.hub_nodes.sort_unstable();
+            self.joint.hub_nodes.dedup();
+            self.source += &format!("\n# and hubs on nodes {nodes:?}\n");
+        }
+        self
+    }
+}
 
 /// Names of the embedded templates.
 pub fn names() -> Vec<&'static str> {

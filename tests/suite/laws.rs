@@ -31,7 +31,7 @@ fn structure(job: &Job) -> &Structure {
 fn bodies(job: &Job) -> impl Iterator<Item = &StripBody> {
     job.parts.iter().map(|part| match &part.body {
         Body::Strip(body) => body,
-        Body::Coupon => panic!("a structure has no coupons"),
+        _ => panic!("a job of strips has strips only"),
     })
 }
 

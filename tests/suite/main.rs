@@ -4,6 +4,7 @@
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
 mod architecture;
+mod connectors;
 mod diagnostics;
 mod gate;
 mod golden;
@@ -13,6 +14,7 @@ mod order;
 mod peers;
 mod planarise;
 mod plane;
+mod planting;
 mod proof;
 mod refusals;
 mod regressions;

@@ -1,218 +1,15 @@
 //! Faults planted in copies of a job: each is found, with its part and place.
-#![allow(clippy::unwrap_used, reason = "a test that cannot be set up has failed")]
 
+use crate::planting::{
+    DXF, Line, Planting, finwright as command, found, is_near, job, point, read_lines,
+    vault, written,
+};
 use finwright::diagnostic::{Finding, Severity, passes};
 use finwright::geometry::offset::offset;
-use finwright::geometry::{Contour, Point2, Vector2, Vertex};
-use finwright::proof::{JobFiles, Proof, prove};
+use finwright::geometry::{Contour, Point2, Vertex};
+use finwright::proof::prove;
 use serde_json::Value;
-use std::path::Path;
 use std::process::Command;
-use std::sync::OnceLock;
-
-const DXF: &str = "sheets/sheet-01.dxf";
-
-/// The files of a job that `make` wrote.
-fn job(name: &str) -> JobFiles {
-    let place = tempfile::tempdir().unwrap();
-    let dir = place.path().join("job");
-    let words = ["make"].into_iter().chain(name.split(' '));
-    let words: Vec<&str> = words.chain(["-q", "--effort", "quick"]).collect();
-    let accepted = ["--accept-flexible", "for the proof", "-o"];
-    let words = [words.as_slice(), accepted.as_slice()].concat();
-    assert_eq!(finwright(&words, &dir), Some(0));
-    let mut files = JobFiles::new();
-    for folder in ["", "sheets/"] {
-        for entry in std::fs::read_dir(dir.join(folder)).unwrap() {
-            let path = entry.unwrap().path();
-            if path.is_file() && path.extension().is_some_and(|end| end != "png") {
-                let name = path.file_name().unwrap().to_string_lossy();
-                files.insert(format!("{folder}{name}"), std::fs::read(&path).unwrap());
-            }
-        }
-    }
-    files
-}
-
-fn finwright(args: &[&str], dir: &Path) -> Option<i32> {
-    let mut command = Command::new(env!("CARGO_BIN_EXE_finwright"));
-    command.args(args).arg(dir).output().unwrap().status.code()
-}
-
-/// The job that faults are planted in; made once.
-fn vault() -> JobFiles {
-    static VAULT: OnceLock<JobFiles> = OnceLock::new();
-    VAULT.get_or_init(|| job("vault")).clone()
-}
-
-/// A polyline of a DXF file of ours.
-#[derive(Clone, Debug)]
-struct Line {
-    layer: String,
-    closed: bool,
-    contour: Contour,
-}
-
-impl Line {
-    fn middle(&self) -> Point2 {
-        let points = || self.contour.vertices.iter().map(|vertex| vertex.point);
-        let low = points().reduce(|a, b| a.inf(&b)).unwrap();
-        nalgebra::center(&low, &points().reduce(|a, b| a.sup(&b)).unwrap())
-    }
-
-    fn shift(&mut self, by: Vector2) {
-        self.contour = self.contour.moved(|p| p + by);
-    }
-}
-
-/// A job whose first sheet is taken apart so that a fault can be planted.
-struct Planting {
-    files: JobFiles,
-    manifest: Value,
-    lines: Vec<Line>,
-}
-
-impl Planting {
-    fn new() -> Self {
-        Self::of(vault())
-    }
-
-    fn of(files: JobFiles) -> Self {
-        let manifest = serde_json::from_slice(&files["job.json"]).unwrap();
-        let lines = read_lines(&files[DXF]);
-        Self { files, manifest, lines }
-    }
-
-    /// The outline of a part of the first sheet, by its place in the manifest's list.
-    fn outline(&mut self, nth: usize) -> (String, &mut Line) {
-        let (id, at) = self.placed(nth);
-        let off = |line: &Line| (line.middle() - at).norm();
-        let outer = self.lines.iter_mut().filter(|line| line.layer == "CUT_OUTER");
-        (id, outer.min_by(|a, b| off(a).total_cmp(&off(b))).unwrap())
-    }
-
-    /// Name of a placed part and the middle of its place.
-    fn placed(&self, nth: usize) -> (String, Point2) {
-        let id = self.placement(nth)["part"].as_str().unwrap().to_owned();
-        let outline = self.part(&id)["outline"].as_array().unwrap();
-        let points = outline.iter().map(|p| self.to_sheet(nth, point(p)));
-        let vertices = points.map(Vertex::line).collect();
-        let contour = Contour { vertices };
-        (id, Line { layer: String::new(), closed: true, contour }.middle())
-    }
-
-    fn placement(&self, nth: usize) -> &Value {
-        &self.manifest["sheets"][0]["placements"][nth]
-    }
-
-    fn part(&self, id: &str) -> &Value {
-        let parts = self.manifest["parts"].as_array().unwrap();
-        parts.iter().find(|part| part["id"] == id).unwrap()
-    }
-
-    fn to_sheet(&self, nth: usize, p: Point2) -> Point2 {
-        let placement = self.placement(nth);
-        let number = |key: &str| placement[key].as_f64().unwrap();
-        let turn = nalgebra::Rotation2::new(number("angle_deg").to_radians());
-        turn * p + Vector2::new(number("x"), number("y"))
-    }
-
-    /// A slit of a placed part: its node, and on the sheet the middle of its mouth, the
-    /// direction into it and across it.
-    fn slit(&self, nth: usize, slit: usize) -> (u64, Point2, Vector2, Vector2) {
-        let (id, _) = self.placed(nth);
-        let strip = &self.part(&id)["strip"];
-        let slit = &strip["slits"][slit];
-        let axes = strip["axes"].as_array().unwrap();
-        let axis = axes.iter().find(|axis| axis["node"] == slit["node"]).unwrap();
-        let bottom = self.to_sheet(nth, point(&axis["bottom"]));
-        let top = self.to_sheet(nth, point(&axis["top"]));
-        let from_top = slit["from"] == "top";
-        let (mouth, end) = if from_top { (top, bottom) } else { (bottom, top) };
-        let inward = (end - mouth).normalize();
-        let up = (top - bottom).normalize();
-        let across = Vector2::new(up.y, -up.x);
-        let middle = mouth + across * slit["offset"].as_f64().unwrap();
-        (slit["node"].as_u64().unwrap(), middle, inward, across)
-    }
-
-    /// Moves the corners of a slit across it, each by what `by` says of its side.
-    fn bend_slit(
-        &mut self,
-        nth: usize,
-        slit: usize,
-        by: impl Fn(f64) -> f64,
-    ) -> (String, u64) {
-        let (node, middle, inward, across) = self.slit(nth, slit);
-        let (id, line) = self.outline(nth);
-        line.contour = line.contour.moved(|p| {
-            let (side, deep) = ((p - middle).dot(&across), (p - middle).dot(&inward));
-            let inside = side.abs() < 5.0 && (-0.5..20.0).contains(&deep);
-            if inside { p + across * by(side) } else { p }
-        });
-        (id, node)
-    }
-
-    /// Proves the job with its first sheet and manifest as they are now.
-    fn proof(mut self) -> Proof {
-        self.files.insert(DXF.into(), written(&self.lines, 4));
-        self.files.insert("job.json".into(), self.manifest.to_string().into_bytes());
-        prove(&self.files).unwrap()
-    }
-}
-
-fn point(value: &Value) -> Point2 {
-    Point2::new(value[0].as_f64().unwrap(), value[1].as_f64().unwrap())
-}
-
-fn read_lines(bytes: &[u8]) -> Vec<Line> {
-    let drawing = dxf::Drawing::load(&mut &*bytes).unwrap();
-    let lines = drawing.entities().map(|entity| {
-        let dxf::entities::EntityType::Polyline(line) = &entity.specific else {
-            panic!()
-        };
-        let corner = |v: &dxf::entities::Vertex| {
-            Vertex::arc(Point2::new(v.location.x, v.location.y), v.bulge)
-        };
-        let contour = Contour { vertices: line.vertices().map(corner).collect() };
-        Line { layer: entity.common.layer.clone(), closed: line.is_closed(), contour }
-    });
-    lines.collect()
-}
-
-/// The lines as a CAD program would save them: R2000 with LWPOLYLINE.
-fn written(lines: &[Line], unit: i32) -> Vec<u8> {
-    let mut text = format!(
-        "0\nSECTION\n2\nHEADER\n9\n$ACADVER\n1\nAC1015\n9\n$INSUNITS\n70\n{unit}\n0\nENDSEC\n\
-         0\nSECTION\n2\nENTITIES\n"
-    );
-    for line in lines {
-        let (layer, count) = (&line.layer, line.contour.vertices.len());
-        text += &format!(
-            "0\nLWPOLYLINE\n8\n{layer}\n90\n{count}\n70\n{}\n",
-            u8::from(line.closed)
-        );
-        for v in &line.contour.vertices {
-            text += &format!("10\n{}\n20\n{}\n42\n{}\n", v.point.x, v.point.y, v.bulge);
-        }
-    }
-    (text + "0\nENDSEC\n0\nEOF\n").into_bytes()
-}
-
-/// The finding with this code about this part.
-fn found<'a>(proof: &'a Proof, code: &str, part: &str) -> &'a Finding {
-    let of_part =
-        |f: &&Finding| f.code == code && f.place.parts.iter().any(|id| id == part);
-    assert!(!passes(&proof.findings), "{code} passes");
-    proof.findings.iter().find(of_part).unwrap_or_else(|| {
-        panic!("no {code} of {part} in {:#?}", proof.findings);
-    })
-}
-
-fn is_near(finding: &Finding, at: Point2, reach: f64) {
-    let found = finding.place.at.map(Point2::from).unwrap();
-    assert!((found - at).norm() < reach, "{found} is not near {at}: {}", finding.message);
-}
 
 #[test]
 fn every_job_folds_into_its_structure() {
@@ -607,17 +404,17 @@ fn verify_ends_with_0_on_a_job_with_3_on_a_mismatch_and_with_1_on_no_job() {
     let place = tempfile::tempdir().unwrap();
     let dir = place.path().join("three");
     assert_eq!(
-        finwright(&["make", "three", "-q", "--effort", "quick", "-o"], &dir),
+        command(&["make", "three", "-q", "--effort", "quick", "-o"], &dir),
         Some(0)
     );
-    assert_eq!(finwright(&["verify", "-q"], &dir), Some(0));
+    assert_eq!(command(&["verify", "-q"], &dir), Some(0));
     let file = dir.join(DXF);
     let text = std::fs::read_to_string(&file).unwrap();
     std::fs::write(&file, text.replacen("CUT_OUTER", "CUT_INNER", 40)).unwrap();
-    assert_eq!(finwright(&["verify", "-q"], &dir), Some(3));
+    assert_eq!(command(&["verify", "-q"], &dir), Some(3));
     std::fs::write(&file, "no drawing").unwrap();
-    assert_eq!(finwright(&["verify", "-q"], &dir), Some(3));
-    assert_eq!(finwright(&["verify", "-q"], place.path()), Some(1));
+    assert_eq!(command(&["verify", "-q"], &dir), Some(3));
+    assert_eq!(command(&["verify", "-q"], place.path()), Some(1));
 }
 
 /// Pieces of a coupon are parts like others; what a coupon tells changes the cut lines.
@@ -626,12 +423,12 @@ fn a_coupon_is_proved_and_what_it_tells_moves_the_next_lines() {
     let place = tempfile::tempdir().unwrap();
     let dir = place.path().join("coupon");
     for template in finwright::template::names() {
-        assert_eq!(finwright(&["coupon", "-q", "-t", template, "-o"], &dir), Some(0));
-        assert_eq!(finwright(&["verify", "-q"], &dir), Some(0), "{template}");
+        assert_eq!(command(&["coupon", "-q", "-t", template, "-o"], &dir), Some(0));
+        assert_eq!(command(&["verify", "-q"], &dir), Some(0), "{template}");
     }
     let fitted = place.path().join("fitted.toml");
     let told = ["coupon", "-q", "-t", "pmma-cast-3", "--set", "3a,6b,6c", "-o"];
-    assert_eq!(finwright(&told, &fitted), Some(0));
+    assert_eq!(command(&told, &fitted), Some(0));
     let text = std::fs::read_to_string(&fitted).unwrap();
     let template = finwright::template::read(&text, "fitted").unwrap();
     // Notch 3 is two steps of 0.025 mm up from the middle, slit 6 two steps of 0.05 mm.
@@ -640,7 +437,7 @@ fn a_coupon_is_proved_and_what_it_tells_moves_the_next_lines() {
     let outline = |template: &str| {
         let dir = place.path().join("job");
         let made = ["make", "three", "-q", "--effort", "quick", "-t", template, "-o"];
-        assert_eq!(finwright(&made, &dir), Some(0));
+        assert_eq!(command(&made, &dir), Some(0));
         let lines = read_lines(&std::fs::read(dir.join(DXF)).unwrap());
         let manifest = std::fs::read(dir.join("job.json")).unwrap();
         let manifest: Value = serde_json::from_slice(&manifest).unwrap();
@@ -658,7 +455,7 @@ fn a_coupon_is_proved_and_what_it_tells_moves_the_next_lines() {
     };
     assert!((outline("pmma-cast-3") - 0.18).abs() < 0.005);
     assert!((outline(fitted.to_str().unwrap()) - 0.23).abs() < 0.005);
-    assert_eq!(finwright(&["coupon", "-q", "--set", "9z", "-o"], &fitted), Some(2));
+    assert_eq!(command(&["coupon", "-q", "--set", "9z", "-o"], &fitted), Some(2));
 }
 
 #[test]

@@ -6,7 +6,7 @@ use finwright::geometry::{Point3, Vector3};
 use finwright::job::{self, Job, Order};
 use finwright::lettering::letter;
 use finwright::nest::Effort;
-use finwright::parts::{Body, Part};
+use finwright::parts::Part;
 use finwright::structure::{AxisRule, Draft, ObjOptions, read_json, read_obj};
 use finwright::template::{self, Template};
 use finwright::units::Unit;
@@ -74,10 +74,7 @@ fn a_spliced_piece_of_one_node_has_a_sound_outline() {
     template.sheet[0].height_mm = 200.0;
     let job = made(ladder(3, 300.0), &template);
     assert!(!codes(&job.findings).contains(&"parts::outline_crosses_itself"));
-    let nodes = |part: &Part| match &part.body {
-        Body::Strip(body) => body.axes.len(),
-        Body::Coupon => 0,
-    };
+    let nodes = |part: &Part| part.body.nodes().len();
     let short: Vec<&Part> = job.parts.iter().filter(|part| nodes(part) == 1).collect();
     assert!(!short.is_empty());
     for part in short {

@@ -109,7 +109,9 @@ fn the_page_of_a_refused_job_says_so_and_shows_what_there_is() {
     let page = page_of(&job, &source(&template, Joint::Hinge), false);
     assert!(page.contains("Not for cutting"));
     assert!(page.contains("<strong>flexible</strong>"));
-    assert!(scene(&page)["fins"].as_array().unwrap().iter().all(|fin| fin[2] == -1));
+    // Its axes are too short for eight plates, but the fins are there to be looked at.
+    assert!(page.contains("parts::axis_too_short"));
+    assert!(scene(&page)["fins"].as_array().unwrap().iter().all(|fin| fin[2] != -1));
     let nothing = Job::default();
     let page = page_of(&nothing, &source(&template, Joint::Lap), false);
     assert!(page.contains("There is no structure to show."));

@@ -27,7 +27,7 @@ impl Sizes {
         let bodies = || {
             job.parts.iter().map(|part| match &part.body {
                 Body::Strip(body) => body,
-                Body::Coupon => panic!("a structure has no coupons"),
+                _ => panic!("a job of strips has strips only"),
             })
         };
         let sorted = |values: Vec<f64>| {

@@ -51,7 +51,7 @@ pub fn guide(job: &Job, source: &Source) -> Option<Vec<u8>> {
         }
         leaves.push(leaf);
     }
-    leaves.extend(list(job));
+    leaves.extend(list(job, &steps));
     Some(bound(leaves))
 }
 
@@ -77,22 +77,22 @@ struct Figure<'a> {
 
 impl Figure<'_> {
     fn draw(&self, leaf: &mut Leaf, at: Point2, (k, step): (usize, &Step)) {
-        let part = &self.job.parts[step.part];
-        let head = format!("{}   {}", k + 1, part.id);
+        let ids = step.parts.iter().map(|&part| self.job.parts[part].id.as_str());
+        let head = format!("{}   {}", k + 1, ids.collect::<Vec<_>>().join(" "));
         leaf.text(at - Vector2::new(0.0, BOLD.size), BOLD, &head);
         let down = 1.6 * BOLD.size + self.picture.size[1];
         let origin = at.coords - Vector2::new(0.0, down);
         let panels = || self.picture.panels.iter();
         let place = |corners: &[Point2; 4]| corners.map(|p| p + origin);
         for panel in panels() {
-            if panel.part == step.part {
+            if step.parts.contains(&panel.part) {
                 leaf.shape(&place(&panel.corners), NEW);
             } else if self.standing.contains(&panel.part) {
                 leaf.shape(&place(&panel.corners), STANDING);
             }
         }
         // What stands in front hides it: its edges show through.
-        for panel in panels().filter(|panel| panel.part == step.part) {
+        for panel in panels().filter(|panel| step.parts.contains(&panel.part)) {
             leaf.edge(&place(&panel.corners), NEW_EDGE);
         }
         let mut line = Point2::from(origin);
@@ -121,6 +121,30 @@ impl Figure<'_> {
     }
 }
 
+/// How to read the steps of strips, ...
+const HOW_STRIPS: [&str; 4] = [
+    "The engraved face looks along travel × axis: read the part's name upright and the \
+     nodes run from left to right, their axes upward.",
+    "\"S03 at 12\" means: at node 12 the slit that is open below slides over the slit of S03 \
+     that is open above.",
+    "Zip means: start at one end and push the strip down node after node, letting the free end \
+     stand off. Do not force it flat in one go.",
+    NO_STRESS,
+];
+
+/// ... and those of single fins.
+const HOW_CONNECTED: [&str; 4] = [
+    "Read a fin's name upright: its arrow points up the node axes, and each end bears the \
+     name of its node.",
+    "Connectors look up with their letters. A disc bears beside each window the name of the fin \
+     that stands there; the key holes of both discs of a node lie above each other.",
+    "\"F03 at 12\" means: at node 12 the connector also takes fin F03, which stands already.",
+    NO_STRESS,
+];
+
+const NO_STRESS: &str = "Put nothing under stress that was cleaned with alcohol or solvent: \
+    acrylic crazes. Work on a flat board, and dry-fit before you glue.";
+
 /// What it is and how to read it.
 fn title(job: &Job, source: &Source, steps: usize) -> Leaf {
     let mut leaf = Leaf::new();
@@ -140,29 +164,20 @@ fn title(job: &Job, source: &Source, steps: usize) -> Leaf {
         ),
         job.verdict.as_ref().map(|verdict| verdict.summary()).unwrap_or_default(),
     ];
-    let how = [
-        format!(
-            "The parts go in one after the other in {steps} steps. Each figure shows in grey what \
-             stands already and in orange the part that goes in; where something stands in front of \
-             it, its edges show through. Every part is engraved with its name."
-        ),
-        "The engraved face looks along travel × axis: read the part's name upright and the \
-         nodes run from left to right, their axes upward."
-            .to_owned(),
-        "\"S03 at 12\" means: at node 12 the slit that is open below slides over the slit of S03 \
-         that is open above."
-            .to_owned(),
-        "Zip means: start at one end and push the strip down node after node, letting the free end \
-         stand off. Do not force it flat in one go."
-            .to_owned(),
-        "Put nothing under stress that was cleaned with alcohol or solvent: acrylic crazes. Work \
-         on a flat board, and dry-fit before you glue."
-            .to_owned(),
-    ];
+    let how = match job.steps.is_empty() {
+        true => HOW_STRIPS,
+        false => HOW_CONNECTED,
+    };
+    let order = format!(
+        "The parts go in one after the other in {steps} steps. Each figure shows in grey what \
+         stands already and in orange the parts that go in; where something stands in front of \
+         them, their edges show through. Every part is engraved with its name."
+    );
     at.y -= 6.0;
-    for text in facts.iter().chain(&how) {
+    let how = how.into_iter().map(str::to_owned);
+    for text in facts.into_iter().chain([order]).chain(how) {
         at.y -= PLAIN.size * 0.7;
-        for line in lines(text, PLAIN, SIZE[0] - 2.0 * MARGIN) {
+        for line in lines(&text, PLAIN, SIZE[0] - 2.0 * MARGIN) {
             at.y -= PLAIN.size * LEADING;
             leaf.text(at, PLAIN, &line);
         }
@@ -184,14 +199,15 @@ fn whole(job: &Job, leaf: &mut Leaf) {
 }
 
 /// The parts with their sizes and sheets.
-fn list(job: &Job) -> Vec<Leaf> {
+fn list(job: &Job, steps: &[Step]) -> Vec<Leaf> {
     const COLUMNS: [f64; 5] = [0.0, 20.0, 50.0, 80.0, 105.0];
     let sheets = fins::sheets(job);
     let rows = job.parts.iter().enumerate().map(|(index, part)| {
         let [length, height] = part.extent();
         let sheet =
             sheets.get(&index).map_or(String::new(), |sheet| (sheet + 1).to_string());
-        let step = (index + 1).to_string();
+        let step = steps.iter().position(|step| step.parts.contains(&index));
+        let step = step.map_or(String::new(), |step| (step + 1).to_string());
         [part.id.clone(), format!("{length:.1}"), format!("{height:.1}"), sheet, step]
     });
     let rows: Vec<[String; 5]> = rows.collect();

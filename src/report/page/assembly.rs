@@ -46,7 +46,8 @@ fn figure(
     (k, shown): (usize, &[usize]),
 ) -> String {
     let [width, height] = picture.size;
-    let id = &job.parts[step.part].id;
+    let ids = step.parts.iter().map(|&part| job.parts[part].id.as_str());
+    let ids: Vec<&str> = ids.collect();
     let used = |part: &usize| format!("<use href=\"#p{part}\"/>");
     let onto =
         step.onto.iter().map(|(node, part)| format!("{} at {node}", html::part(part)));
@@ -66,11 +67,11 @@ fn figure(
         width + 2.0 * pad,
         height + 2.0 * pad,
         k + 1,
-        html::text(id),
+        html::text(&ids.join(", ")),
         shown.iter().map(used).collect::<String>(),
-        used(&step.part),
+        step.parts.iter().map(used).collect::<String>(),
         k + 1,
-        html::part(id),
+        ids.iter().map(|id| html::part(id)).collect::<Vec<_>>().join(" "),
         html::text(&step.words),
     )
 }

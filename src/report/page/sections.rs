@@ -158,20 +158,14 @@ pub(super) fn parts(page: &Page) -> String {
     let row = |(index, part): (usize, &crate::parts::Part)| {
         let cut: f64 = part.region.contours().map(Contour::length).sum();
         let [length, height] = part.extent();
-        let nodes = match &part.body {
-            Body::Strip(body) => {
-                let nodes = body.axes.iter().map(|axis| axis.node.to_string());
-                nodes.collect::<Vec<_>>().join(" ")
-            }
-            Body::Coupon => String::new(),
-        };
+        let nodes = part.body.nodes().iter().map(usize::to_string).collect::<Vec<_>>();
         vec![
             html::part(&part.id),
             format!("{length:.1}"),
             format!("{height:.1}"),
             format!("{cut:.0}"),
             sheets.get(&index).map_or(String::new(), |sheet| (sheet + 1).to_string()),
-            nodes,
+            nodes.join(" "),
         ]
     };
     let rows: Vec<Vec<String>> = job.parts.iter().enumerate().map(row).collect();

@@ -1,22 +1,25 @@
 //! The stages in order and nothing else.
 
-use crate::diagnostic::{Finding, Severity};
+mod judge;
+
+pub use judge::{model, question, verdict, with_remedies};
+
+use crate::diagnostic::Finding;
 use crate::gate::{self, Approved, Judged, Shut};
 use crate::geometry::{Contour, Point2};
 use crate::joint::Joint;
 use crate::nest::{self, Effort, Layout, NestError, Shape, Stock};
 use crate::order::{self, Profile, Wanted};
-use crate::parts::{self, Making, Part};
-use crate::rigidity::{
-    self, FEW_STEPS, Fingerprint, Model, Pairing, Question, RigidityFinding, Stopped,
-    SwayLimit, Verdict,
-};
-use crate::setting::{fit, frame, marking, stock, tolerance, turns};
+use crate::parts::{self, ConnectorFinding, Making, Part, Step};
+use crate::rigidity::{Fingerprint, Stopped, Verdict};
+pub use crate::setting::fit;
+use crate::setting::{frame, marking, stock, tolerance, turns};
 use crate::sheets::{self, Kerf, Laying, Sheet};
 use crate::structure::{Draft, Structure};
 use crate::template::Template;
 use crate::tolerance::ARC_SAGITTA_MM;
 use crate::watch::Watch;
+use judge::{has_hub, judged};
 
 /// What a job is made from.
 pub struct Order<'a> {
@@ -47,6 +50,8 @@ pub struct Job {
     pub verdict: Option<Verdict>,
     /// The parts in the order of assembly.
     pub parts: Vec<Part>,
+    /// How single fins and connectors go together; strips go by their ranks.
+    pub steps: Vec<Step>,
     /// Stock that the layout chose from.
     pub stock: Vec<Stock>,
     /// Where parts lie.
@@ -81,14 +86,11 @@ pub fn run(order: Order, watch: &mut dyn Watch) -> Result<Job, Interrupted> {
         job.findings.push(finding.into());
         return Ok(Job { structure: Some(structure), ..job });
     }
+    job.findings.extend(no_such_hub(&structure, template).map(Finding::from));
     job.judge(&structure, order.joint, template, watch)?;
-    if order.joint != Joint::Lap {
-        return Ok(Job { structure: Some(structure), ..job });
-    }
     watch.progress("parts", 0, 1);
     let name = structure.name().to_owned();
-    let kerf = Kerf::from_width_mm(template.material.kerf_mm);
-    job.cut_strips(structure, kerf, template);
+    job.cut(structure, order.joint, template);
     if watch.stopped() {
         return Err(Interrupted);
     }
@@ -120,8 +122,7 @@ pub(crate) fn on_sheets(
     watch: &mut dyn Watch,
 ) -> Result<Job, Interrupted> {
     let kerf = Kerf::from_width_mm(template.material.kerf_mm);
-    let shapes: Vec<Shape> = job.parts.iter().map(|p| shape(p, kerf, template)).collect();
-    lay(&mut job, &shapes, effort, watch)?;
+    lay(&mut job, kerf, template, effort, watch)?;
     watch.progress("sheets", 0, 1);
     let frame = frame(template, name, job.accepted_flexible.as_deref());
     job.sheets = sheets::sheets(&Laying {
@@ -135,22 +136,38 @@ pub(crate) fn on_sheets(
     Ok(job)
 }
 
+/// A node that should get a hub and is not there.
+fn no_such_hub(structure: &Structure, template: &Template) -> Option<ConnectorFinding> {
+    let count = structure.nodes().len();
+    let node = template.joint.hub_nodes.iter().copied().find(|&node| node >= count)?;
+    Some(ConnectorFinding::NoSuchNode { node, count })
+}
+
 /// Finds the parts their places, or says why there are none.
 fn lay(
     job: &mut Job,
-    shapes: &[Shape],
+    kerf: Kerf,
+    template: &Template,
     effort: &Effort,
     watch: &mut dyn Watch,
 ) -> Result<(), Interrupted> {
+    let copies = job.parts.iter().enumerate();
+    let copies: Vec<usize> =
+        copies.flat_map(|(k, part)| std::iter::repeat_n(k, part.quantity)).collect();
+    let shapes: Vec<Shape> =
+        copies.iter().map(|&k| shape(&job.parts[k], kerf, template)).collect();
     // Parts that cross themselves cannot lie soundly, and that was said of them already.
     let crossing =
         job.findings.iter().any(|found| found.code == "parts::outline_crosses_itself");
-    match nest::nest(shapes, &job.stock, effort, watch) {
+    match nest::nest(&shapes, &job.stock, effort, watch) {
         Ok(layout) => job.layout = layout,
         Err(NestError::Stopped) => return Err(Interrupted),
         Err(NestError::Unsound { .. }) if crossing => {}
         Err(error) => job.findings.push(error.into()),
     }
+    // From here on a placement means a part; which copy it is, nobody can tell.
+    let placements = job.layout.sheets.iter_mut().flat_map(|sheet| &mut sheet.placements);
+    placements.for_each(|placement| placement.shape = copies[placement.shape]);
     Ok(())
 }
 
@@ -177,9 +194,10 @@ impl Job {
         self.order = Some(order);
     }
 
-    /// Makes the strips into parts.
-    fn cut_strips(&mut self, structure: Structure, kerf: Kerf, template: &Template) {
+    /// Makes the structure into parts.
+    fn cut(&mut self, structure: Structure, joint: Joint, template: &Template) {
         let (fit, turns) = (fit(template), turns(template));
+        let kerf = Kerf::from_width_mm(template.material.kerf_mm);
         let stock = &self.stock;
         let fits = |outline: &[Point2]| {
             let drawn = kerf.compensated(&Contour::polygon(outline.iter().copied()));
@@ -187,6 +205,14 @@ impl Job {
             stock.iter().any(|sheet| nest::fits(&drawn, &turns, sheet).is_some())
         };
         let making = Making { fit: &fit, marking: marking(template), fits: &fits };
+        if joint != Joint::Lap {
+            let is_hub = |node: usize| has_hub(joint, template, node);
+            let made = parts::connected(&structure, &is_hub, &making);
+            self.findings.extend(made.findings);
+            (self.parts, self.steps) = (made.parts, made.steps);
+            self.structure = Some(structure);
+            return;
+        }
         let made = parts::strips(structure, &making);
         self.findings.extend(made.findings.into_iter().map(Finding::from));
         let tight = parts::tight_insertions(&made.structure, &made.parts, &fit);
@@ -252,94 +278,6 @@ impl Job {
         }
         if watch.stopped() { Err(Interrupted) } else { Ok(()) }
     }
-}
-
-/// What a structure is as a mechanism, the structure with its strips as they will be cut,
-/// and what is judged.
-pub fn model(
-    structure: &Structure,
-    joint: Joint,
-    template: &Template,
-) -> (Model, Structure, Fingerprint) {
-    let fingerprint = |structure| Fingerprint::of(structure, joint, &template.source);
-    match joint {
-        Joint::Lap => {
-            let (structure, unheld) = parts::lapped(structure, &fit(template));
-            let fingerprint = fingerprint(&structure);
-            (Model::of(&structure, joint, &unheld), structure, fingerprint)
-        }
-        Joint::Hinge | Joint::Hub => {
-            let model = Model::of(structure, joint, &Default::default());
-            (model, structure.clone(), fingerprint(structure))
-        }
-    }
-}
-
-/// What is asked about a structure: play and limit as the template says, else half the
-/// clearance and L/50.
-///
-/// # Errors
-/// A limit that cannot be read.
-pub fn question(
-    structure: &Structure,
-    template: &Template,
-) -> Result<Question, RigidityFinding> {
-    let lengths = structure.fins().iter().map(|&[i, j]| {
-        (structure.nodes()[i].position - structure.nodes()[j].position).norm()
-    });
-    let mean = lengths.sum::<f64>() / structure.fins().len().max(1) as f64;
-    let play = template.gate.play_mm.unwrap_or(template.material.clearance_mm / 2.0);
-    Ok(Question {
-        play_mm: play.max(0.0),
-        limit: template.gate.sway_limit.parse::<SwayLimit>()?,
-        modes: 6,
-        pairing: Pairing::Pin,
-        scale: 1000.0 / mean,
-    })
-}
-
-/// Up to this many bodies a refusal comes with the first steps of what would help.
-const CURABLE: usize = 2000;
-
-/// Judges a structure with a joint; the question is the template's unless one is given.
-///
-/// # Errors
-/// A limit that cannot be read; within, [`Stopped`] if the watch stopped the work.
-pub fn verdict(
-    structure: &Structure,
-    joint: Joint,
-    (template, asked): (&Template, Option<&Question>),
-    watch: &mut dyn Watch,
-) -> Result<Result<Verdict, Stopped>, RigidityFinding> {
-    let question = match asked {
-        Some(question) => *question,
-        None => question(structure, template)?,
-    };
-    let (model, _, fingerprint) = model(structure, joint, template);
-    let verdict = rigidity::judge(&model, &question, fingerprint, watch);
-    Ok(verdict.and_then(|verdict| {
-        if verdict.passes() || model.bodies.len() > CURABLE {
-            return Ok(verdict);
-        }
-        let remedies = rigidity::remedies(&model, &question, FEW_STEPS, watch)?;
-        Ok(verdict.with_remedies(remedies))
-    }))
-}
-
-/// Findings of a verdict; what is accepted becomes a warning.
-fn judged(verdict: &Verdict, accepted: Option<&str>) -> Vec<Finding> {
-    let mut findings: Vec<Finding> =
-        verdict.findings().into_iter().map(Finding::from).collect();
-    let reason = accepted.filter(|reason| !reason.trim().is_empty());
-    let refuses = !crate::diagnostic::passes(&findings);
-    if let (Some(reason), true) = (reason, refuses) {
-        for finding in &mut findings {
-            finding.severity = finding.severity.min(Severity::Warning);
-        }
-        let (verdict, reason) = (verdict.outcome().name(), reason.to_owned());
-        findings.push(RigidityFinding::Accepted { verdict, reason }.into());
-    }
-    findings
 }
 
 /// A part as the nester sees it: the line that will be drawn.
