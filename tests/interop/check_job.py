@@ -9,6 +9,7 @@ import traceback
 from pathlib import Path
 from typing import Callable
 
+from connectors import check_connectors
 from files import check_files, check_pictures, check_shape
 from job import Job
 from refold import check_refold
@@ -28,7 +29,7 @@ def check(folder: Path) -> Report:
     check_shape(job, report)
     if report.misses():
         return report
-    in_space = () if job.is_coupon else (check_refold, check_slits)
+    in_space = () if job.is_coupon else (check_refold, check_slits, check_connectors)
     for step in (_open, check_files, check_pictures, *in_space, check_sheets):
         _run(step, job, report)
     return report

@@ -73,7 +73,14 @@ CONNECTOR = {
     "node": COUNT,
     "fins": [Row(TEXT, NUMBER)],
     "slots": [{"fin": TEXT, "angle_deg": NUMBER, "width": NUMBER, "length": NUMBER}],
+    "kind": OneOf("hub", "hinge"),
+    "radius": NUMBER,
+    "hole": NUMBER,
+    "thickness": NUMBER,
+    "copies": [{"height": NUMBER, "angle_deg": NUMBER, "fins": [TEXT]}],
 }
+FIN = {"nodes": Row(COUNT, COUNT), "axes": [AXIS], "setbacks": Row(NUMBER, NUMBER)}
+HARDWARE = {"kind": TEXT, "diameter": NUMBER, "length": Maybe(NUMBER), "quantity": COUNT, "nodes": [COUNT]}
 PART = {
     "id": TEXT,
     "kind": OneOf("strip", "fin", "connector", "coupon"),
@@ -84,7 +91,8 @@ PART = {
     "area": NUMBER,
     "cut_length": NUMBER,
     "strip": Optional(STRIP),
-    "fin": Optional({"nodes": Row(COUNT, COUNT), "axes": [AXIS]}),
+    "fin": Optional(FIN),
+    "shape": Optional(TEXT),
     "connector": Optional(CONNECTOR),
 }
 JOB = {
@@ -112,7 +120,8 @@ JOB = {
             "placements": [{"part": TEXT, "copy": COUNT, "x": NUMBER, "y": NUMBER, "angle_deg": NUMBER}],
         }
     ],
-    "assembly": [{"step": COUNT, "part": TEXT}],
+    "assembly": [{"step": COUNT, "part": TEXT, "copies": Optional(Row(COUNT, COUNT))}],
+    "hardware": Optional([HARDWARE]),
     "totals": {
         "parts": COUNT,
         "sheets": COUNT,

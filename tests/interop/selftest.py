@@ -1,7 +1,11 @@
-"""Shows that the checks pass a right job and find each planted fault. Run it: `python selftest.py`."""
+"""Shows that the checks pass a right job and find each planted fault: `python selftest.py [BINARY]`.
+
+With a finwright binary, also in a job of single fins and hubs that it makes.
+"""
 
 from __future__ import annotations
 
+import argparse
 import copy
 import sys
 import tempfile
@@ -13,6 +17,7 @@ import pymupdf
 import shapely
 
 from check_job import check, check_same
+from selftest_connectors import facts as connector_facts
 from tiny_job import KERF, STRIPS, Corner, Path2, TinyJob, offset, placed, runs_of, slit_of, tiny_job
 
 Fault = tuple[str, Callable[[], TinyJob], str]
@@ -284,6 +289,9 @@ FAULTS: list[Fault] = [
 
 
 def main() -> int:
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("binary", type=Path, nargs="?", metavar="BINARY")
+    binary = parser.parse_args().binary
     passed, failed = 0, []
     with tempfile.TemporaryDirectory() as scratch:
         tiny_job().write(Path(scratch, "right"))
@@ -297,6 +305,7 @@ def main() -> int:
             "a right job passes": not right.misses(),
             "a right job with a splice passes": not spliced.misses(),
             "unequal bytes are found": bool(same.misses()),
+            **(connector_facts(binary.resolve(), Path(scratch)) if binary else {}),
         }
         for name, holds in facts.items():
             print(f"{'holds ' if holds else 'FAILS '} {name}")

@@ -132,7 +132,7 @@ def _check_layout(job: Job, dxf: Drawing, sheet: dict, report: Report) -> None:
     report.claim("layout: cut lines are simple", [] if valid else [f"{sheet['id']}: a cut line crosses itself"], len(outers) + len(holes))
     if not valid or not len(outers):
         return
-    regions, loose = _with_holes(outers, holes)
+    regions, loose = with_holes(outers, holes)
     report.claim("layout: holes lie inside parts", [f"{sheet['id']}: {text}" for text in loose], len(holes))
     i, j = shapely.STRtree(regions).query(regions, predicate="dwithin", distance=max(10.0, 2 * stock["spacing"]))
     i, j = i[i < j], j[i < j]
@@ -147,7 +147,7 @@ def _check_layout(job: Job, dxf: Drawing, sheet: dict, report: Report) -> None:
     report.at_least("layout: margin", edge, stock["margin"] - SLACK, sheet["id"], count=len(outers))
 
 
-def _with_holes(outers: np.ndarray, holes: np.ndarray) -> tuple[np.ndarray, list[str]]:
+def with_holes(outers: np.ndarray, holes: np.ndarray) -> tuple[np.ndarray, list[str]]:
     """Takes each hole out of the smallest outline around it, so that a part may lie in another's hole."""
     if not len(holes):
         return outers, []
