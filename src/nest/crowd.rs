@@ -153,7 +153,7 @@ impl<'a> Crowd<'a> {
             return 0.0;
         }
         let Member { pose, turned, .. } = &self.members[part];
-        self.loss_at(part, other, turned, *pose)
+        self.loss_at(part, other, (turned, *pose), f64::INFINITY)
     }
 
     pub(super) const fn spacing(&self) -> f64 {
@@ -164,15 +164,21 @@ impl<'a> Crowd<'a> {
         grown(&self.bounds[part], self.spacing)
     }
 
-    fn loss_at(&self, part: usize, other: usize, turned: &Turned, pose: Pose) -> f64 {
+    /// Loss of a pair; if it is more than `enough`, anything more than that.
+    fn loss_at(
+        &self,
+        part: usize,
+        other: usize,
+        (turned, pose): (&Turned, Pose),
+        enough: f64,
+    ) -> f64 {
         let there = &self.members[other];
         let by = [there.pose.x - pose.x, there.pose.y - pose.y];
-        let overlap = turned.overlap(&there.turned, by, self.spacing);
-        if overlap <= 0.0 {
-            return 0.0;
-        }
         let weight = |k: usize| self.shapes[self.members[k].shape].weight;
-        overlap.sqrt() * weight(part) * weight(other)
+        let weight = weight(part) * weight(other);
+        let enough = (enough / weight).powi(2);
+        let overlap = turned.overlap(&there.turned, by, self.spacing, enough);
+        if overlap <= 0.0 { 0.0 } else { overlap.sqrt() * weight }
     }
 
     /// Weighted loss of a part if it lay at `pose`; infinite once it reaches `bound`.
@@ -191,7 +197,9 @@ impl<'a> Crowd<'a> {
             if !meet(&reach, bounds) || other == part {
                 continue;
             }
-            cost += self.weights[row + other] * self.loss_at(part, other, turned, pose);
+            let weight = self.weights[row + other];
+            let enough = (bound - cost) / weight * (1.0 + 1e-9);
+            cost += weight * self.loss_at(part, other, (turned, pose), enough);
             if cost >= bound {
                 return f64::INFINITY;
             }

@@ -1,6 +1,6 @@
 //! A part's convex pieces at some turn, and how deep two parts overlap.
 
-use crate::geometry::{Point2, trig};
+use crate::geometry::{Point2, Vector2, trig};
 
 /// A box `[left, low, right, high]`.
 pub(super) type Bounds = [f64; 4];
@@ -17,11 +17,21 @@ struct Edge {
     reach: f64,
 }
 
+impl Edge {
+    /// How far the edge lies beyond a point.
+    fn beyond(&self, [x, y]: [f64; 2]) -> f64 {
+        self.reach - (self.nx * x + self.ny * y)
+    }
+}
+
 #[derive(Debug, Clone, Copy)]
 struct Piece {
     start: usize,
     end: usize,
     bounds: Bounds,
+    /// A point inside, and the radius of a circle around it that is inside, too.
+    middle: [f64; 2],
+    inner: f64,
     /// About the radius of the largest circle inside.
     girth: f64,
 }
@@ -50,7 +60,13 @@ impl Turned {
             }
             let girth = super::pieces::width(piece) / 2.0;
             let end = turned.edges.len();
-            turned.pieces.push(Piece { start, end, bounds: [0.0; 4], girth });
+            let count = piece.len() as f64;
+            let sum = piece.iter().fold(Vector2::zeros(), |sum, p| sum + (p - middle));
+            let middle = [sum.x / count, sum.y / count];
+            let inner = turned.edges[start..].iter().map(|e| e.beyond(middle));
+            let inner = inner.fold(f64::INFINITY, f64::min).max(0.0);
+            let bounds = [0.0; 4];
+            turned.pieces.push(Piece { start, end, bounds, middle, inner, girth });
         }
         turned.bound();
         turned
@@ -68,7 +84,11 @@ impl Turned {
             ny: sin * e.nx + cos * e.ny,
             reach: e.reach,
         }));
-        self.pieces.clone_from(&still.pieces);
+        self.pieces.clear();
+        self.pieces.extend(still.pieces.iter().map(|piece| {
+            let [x, y] = piece.middle;
+            Piece { middle: [cos * x - sin * y, sin * x + cos * y], ..*piece }
+        }));
         self.bound();
     }
 
@@ -94,8 +114,14 @@ impl Turned {
 
     /// Sum over all pairs of pieces of how far they must be moved apart to keep the
     /// spacing, times the smaller girth; 0 exactly if all keep it. `other` lies by `(dx,
-    /// dy)` from here.
-    pub(super) fn overlap(&self, other: &Self, [dx, dy]: [f64; 2], spacing: f64) -> f64 {
+    /// dy)` from here. Once the sum passes `enough` it is returned as it is.
+    pub(super) fn overlap(
+        &self,
+        other: &Self,
+        [dx, dy]: [f64; 2],
+        spacing: f64,
+        enough: f64,
+    ) -> f64 {
         let mut sum = 0.0;
         for p in &self.pieces {
             // In the other's own coordinates.
@@ -109,9 +135,12 @@ impl Turned {
                 continue;
             }
             for q in other.pieces.iter().filter(|q| meet(&reach, &q.bounds)) {
-                let a = &self.edges[p.start..p.end];
-                let b = &other.edges[q.start..q.end];
+                let a = (&self.edges[p.start..p.end], p);
+                let b = (&other.edges[q.start..q.end], q);
                 sum += depth(a, b, [dx, dy], spacing) * p.girth.min(q.girth);
+            }
+            if sum > enough {
+                break;
             }
         }
         sum
@@ -123,15 +152,28 @@ pub(super) fn meet(a: &Bounds, b: &Bounds) -> bool {
     a[0] < b[2] && b[0] < a[2] && a[1] < b[3] && b[1] < a[3]
 }
 
+/// A convex piece and its edges.
+type Convex<'a> = (&'a [Edge], &'a Piece);
+
 /// Least way along an edge's normal that brings two convex pieces apart by the spacing.
-fn depth(a: &[Edge], b: &[Edge], [dx, dy]: [f64; 2], spacing: f64) -> f64 {
+fn depth(a: Convex, b: Convex, [dx, dy]: [f64; 2], spacing: f64) -> f64 {
     let mut least = f64::INFINITY;
-    for (edges, corners, sign) in [(a, b, 1.0), (b, a, -1.0)] {
+    for ((edges, _), (corners, other), sign) in [(a, b, 1.0), (b, a, -1.0)] {
         for e in edges {
             let off = spacing + e.reach - sign * (e.nx * dx + e.ny * dy);
+            // Some corner is at least as far back as the inner circle: mostly there is
+            // nothing to gain.
+            let [x, y] = other.middle;
+            if off - (e.nx * x + e.ny * y) + other.inner >= least {
+                continue;
+            }
             let mut near = f64::INFINITY;
             for c in corners {
-                near = near.min(e.nx * c.x + e.ny * c.y);
+                let along = e.nx * c.x + e.ny * c.y;
+                // `min` would look for numbers that are none, too.
+                if along < near {
+                    near = along;
+                }
             }
             if off <= near {
                 return 0.0;
@@ -152,12 +194,14 @@ mod tests {
         let square = square.map(|(x, y)| Point2::new(x, y)).to_vec();
         let a = Turned::new(&[square], Point2::new(2.0, 2.0));
         let girth = 1.0;
-        assert!((a.overlap(&a, [3.0, 0.0], 0.0) - girth).abs() < 1e-12);
-        assert!((a.overlap(&a, [4.5, 0.0], 1.0) - 0.5 * girth).abs() < 1e-12);
-        assert!(a.overlap(&a, [5.0, 0.0], 1.0).abs() < 1e-12);
+        assert!((a.overlap(&a, [3.0, 0.0], 0.0, f64::INFINITY) - girth).abs() < 1e-12);
+        assert!(
+            (a.overlap(&a, [4.5, 0.0], 1.0, f64::INFINITY) - 0.5 * girth).abs() < 1e-12
+        );
+        assert!(a.overlap(&a, [5.0, 0.0], 1.0, f64::INFINITY).abs() < 1e-12);
         let mut b = Turned::default();
         b.turn(&a, std::f64::consts::FRAC_PI_4);
-        assert!(a.overlap(&b, [4.9, 0.0], 0.0).abs() < 1e-12);
-        assert!(a.overlap(&b, [4.7, 0.0], 0.0) > 0.0);
+        assert!(a.overlap(&b, [4.9, 0.0], 0.0, f64::INFINITY).abs() < 1e-12);
+        assert!(a.overlap(&b, [4.7, 0.0], 0.0, f64::INFINITY) > 0.0);
     }
 }
