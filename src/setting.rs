@@ -24,12 +24,12 @@ pub(crate) fn tolerance(template: &Template) -> Tolerance {
 }
 
 pub(crate) fn stock(template: &Template) -> Vec<Stock> {
-    let sheets = template.sheet.iter().map(|sheet| Stock {
-        width: sheet.width_mm,
-        height: sheet.height_mm,
-        margin: sheet.margin_mm,
-        spacing: sheet.spacing_mm,
-        count: sheet.count,
+    let sheets = template.sheet.iter().map(|sheet| {
+        let size = [sheet.width_mm, sheet.height_mm];
+        Stock {
+            count: sheet.count,
+            ..Stock::new(size, sheet.margin_mm, sheet.spacing_mm)
+        }
     });
     sheets.collect()
 }

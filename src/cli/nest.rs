@@ -8,12 +8,13 @@ use crate::cli::nest_input::{self, Order, Task};
 use crate::cli::run::{End, Failure};
 use crate::cli::show::{Terminal, Voice};
 use crate::diagnostic::{Finding, Located, Severity};
-use crate::export;
+use crate::export::{self, PngLook};
 use crate::gate::approve_loose;
 use crate::nest::{self, Effort, Found, NestError, Shape, Stock};
 use crate::proof::{Format, drawn_parts};
-use crate::report::{Nested, layout_json, layout_sheets};
+use crate::report::{Nested, free_maps, layout_json, layout_sheets};
 use crate::setting;
+use crate::sheets::Sheet;
 use crate::watch::Watch;
 use clap::Args;
 use std::path::{Path, PathBuf};
@@ -144,8 +145,9 @@ pub(super) fn run(args: &NestArgs, voice: Voice) -> Result<End, Failure> {
     voice.findings(
         &notes.into_iter().chain(left_over(&nested.unplaced)).collect::<Vec<_>>(),
     );
-    voice.say(&summary(&nested, args, &dir));
-    Ok(End::Done)
+    voice.say(&summary(&nested, args, &dir, watch.0.stopped()));
+    // What was found so far is written all the same.
+    Ok(if watch.0.stopped() { End::Interrupted } else { End::Done })
 }
 
 /// The parts to nest, and what the drawing they come from did not say.
@@ -186,13 +188,7 @@ fn set_up(order: &mut Order, args: &NestArgs) -> Result<(), InputError> {
     if !args.sheet.is_empty() {
         let (spacing, margin) =
             order.stock.first().map_or((2.0, 5.0), |s| (s.spacing, s.margin));
-        let stock = |&[width, height]: &[f64; 2]| Stock {
-            width,
-            height,
-            margin,
-            spacing,
-            count: None,
-        };
+        let stock = |&size: &[f64; 2]| Stock::new(size, margin, spacing);
         order.stock = args.sheet.iter().map(stock).collect();
     }
     for stock in &mut order.stock {
@@ -221,8 +217,7 @@ fn nested(
     effort: &Effort,
     watch: &mut dyn Watch,
 ) -> Result<Nested, NestError> {
-    let refused: Vec<NestError> = order.shapes.iter().filter_map(nest::refused).collect();
-    order.shapes.retain(|shape| nest::refused(shape).is_none());
+    let refused = order.refuse()?;
     let closed: Vec<Shape>;
     let shapes = if order.holes_closed {
         let solid = |shape: &Shape| Shape { holes: Vec::new(), ..shape.clone() };
@@ -266,6 +261,12 @@ fn deliver(
         let cut = export::cut_files(&approved).into_iter();
         files.extend(cut.map(|(path, bytes)| JobFile { path, bytes }));
     }
+    let maps = free_maps(&order.shapes, &order.stock, &nested.layout, &order.lines);
+    let picture = |(path, map): (String, Sheet)| {
+        let bytes = export::png(&map, &PngLook { px_per_mm: 1.0, ..PngLook::default() });
+        bytes.ok().map(|bytes| JobFile { path, bytes })
+    };
+    files.extend(maps.into_iter().filter_map(picture));
     jobdir::write(dir, &files)?;
     if args.json {
         crate::cli::run::print(&format!("{manifest}\n"));
@@ -273,7 +274,7 @@ fn deliver(
     Ok(())
 }
 
-fn summary(nested: &Nested, args: &NestArgs, dir: &Path) -> String {
+fn summary(nested: &Nested, args: &NestArgs, dir: &Path, stopped: bool) -> String {
     let sheets = nested.layout.sheets.len();
     let parts: usize = nested.layout.sheets.iter().map(|s| s.placements.len()).sum();
     let place = dir.display();
@@ -282,7 +283,8 @@ fn summary(nested: &Nested, args: &NestArgs, dir: &Path) -> String {
         None => format!("{parts} parts on {sheets} sheet(s) in {place}"),
     };
     let again = format!("; --seed {} --work {} repeats it", args.seed, nested.trials);
-    if args.time_limit.is_some() { what + &again } else { what }
+    let by_clock = args.time_limit.is_some() || stopped;
+    if by_clock { what + &again } else { what }
 }
 
 fn checked(order: &Order, voice: Voice) -> End {

@@ -71,6 +71,7 @@ pub(super) fn order(
             outline: part.outline.enclosing_polygon(ARC_SAGITTA_MM),
             holes: holes.clone().map(|hole| hole.flattened(ARC_SAGITTA_MM)).collect(),
             turns: Turns::Free,
+            priority: 0,
         });
         let holes = holes.map(|hole| (Operation::CutInner, Path::Closed(hole.clone())));
         let outline = (Operation::CutOuter, Path::Closed(part.outline.clone()));

@@ -1,7 +1,9 @@
 //! Parts and layouts from JSON (contract §5).
 
 use crate::geometry::Point2;
-use crate::nest::{Layout, NestedSheet, Placement, Shape, Stock, Turns};
+use crate::nest::{
+    self, Layout, NestError, NestedSheet, Placement, Remnant, Shape, Stock, Turns,
+};
 use crate::report::Lines;
 use miette::Diagnostic;
 use serde::Deserialize;
@@ -65,10 +67,15 @@ struct File {
 
 #[derive(Deserialize)]
 struct Sheet {
-    width: f64,
-    height: f64,
+    width: Option<f64>,
+    height: Option<f64>,
     margin: Option<f64>,
     count: Option<usize>,
+    cost: Option<f64>,
+    /// Of a remnant.
+    outline: Option<Ring>,
+    #[serde(default)]
+    holes: Vec<Ring>,
     #[serde(default)]
     placements: Vec<Placed>,
 }
@@ -92,6 +99,8 @@ struct Part {
     holes: Vec<Ring>,
     #[serde(default)]
     rotations: Rotations,
+    #[serde(default)]
+    priority: i32,
 }
 
 const fn one() -> usize {
@@ -142,24 +151,27 @@ pub(super) fn order(text: &str, name: &str) -> Result<Order, NestInputError> {
         Some(height) if height > 0.0 => {
             let spacing = file.spacing.unwrap_or(0.0);
             let stock =
-                Stock { width: 0.0, height, margin: 0.0, spacing, count: Some(1) };
+                Stock { count: Some(1), ..Stock::new([0.0, height], 0.0, spacing) };
             (file.items.iter().flat_map(Item::shapes).collect(), vec![stock], Task::Strip)
         }
         Some(_) => return Err(bad("strip_height must be larger than 0")),
         None => (
             file.parts.iter().flat_map(Part::shapes).collect(),
-            file.stock(),
+            file.stock_with_locked(name)?,
             Task::Sheets,
         ),
     };
     let shapes: Vec<Shape> = shapes;
     let fine = |s: &Stock| {
         let lengths = [s.width, s.height, s.margin, s.spacing];
-        lengths.iter().all(|mm| mm.is_finite() && (0.0..=1e6).contains(mm))
+        let fine = lengths.iter().all(|mm| (0.0..=1e6).contains(mm));
+        fine && s.cost.is_finite() && s.cost >= 0.0
     };
     match () {
         () if shapes.is_empty() => Err(bad("there are no parts in it")),
-        () if !stock.iter().all(fine) => Err(bad("a sheet has an impossible size")),
+        () if !stock.iter().all(fine) => {
+            Err(bad("a sheet has an impossible size or cost"))
+        }
         () => Ok(Order {
             name: file
                 .name
@@ -181,20 +193,9 @@ pub(super) fn order(text: &str, name: &str) -> Result<Order, NestInputError> {
 /// [`NestInputError`] if the text is none.
 pub(super) fn layout(text: &str, name: &str) -> Result<Order, NestInputError> {
     let file = file(text, name)?;
-    let bad = |what: String| NestInputError::Bad { name: name.to_owned(), what };
     let shapes: Vec<Shape> = file.parts.iter().flat_map(Part::shapes).collect();
-    let ids =
-        file.parts.iter().flat_map(|p| (1..=p.quantity).map(|copy| (p.id.clone(), copy)));
-    let index: BTreeMap<(String, usize), usize> = ids.zip(0..).collect();
     let mut layout = Layout::default();
-    for (stock, sheet) in file.sheets.iter().enumerate() {
-        let placement = |p: &Placed| {
-            let unknown = || bad(format!("{} copy {} is no part of it", p.part, p.copy));
-            let shape = *index.get(&(p.part.clone(), p.copy)).ok_or_else(unknown)?;
-            Ok(Placement { shape, angle: p.angle_deg.to_radians(), x: p.x, y: p.y })
-        };
-        let placements =
-            sheet.placements.iter().map(placement).collect::<Result<_, _>>()?;
+    for (stock, placements) in file.placements(name)?.into_iter().enumerate() {
         layout.sheets.push(NestedSheet { stock, placements });
     }
     let stock = file.stock();
@@ -224,14 +225,92 @@ fn is_folder_name(name: &str) -> bool {
 
 impl File {
     fn stock(&self) -> Vec<Stock> {
-        let stock = |sheet: &Sheet| Stock {
-            width: sheet.width,
-            height: sheet.height,
-            margin: sheet.margin.unwrap_or(5.0),
-            spacing: self.spacing.unwrap_or(2.0),
-            count: sheet.count,
+        self.sheets.iter().map(|sheet| sheet.stock(self.spacing.unwrap_or(2.0))).collect()
+    }
+
+    /// The stock with what lies on it already.
+    fn stock_with_locked(&self, name: &str) -> Result<Vec<Stock>, NestInputError> {
+        let locked = self.placements(name)?;
+        let with = |(stock, locked)| Stock { locked, ..stock };
+        Ok(self.stock().into_iter().zip(locked).map(with).collect())
+    }
+
+    /// What lies on each sheet; every copy of a part only once.
+    fn placements(&self, name: &str) -> Result<Vec<Vec<Placement>>, NestInputError> {
+        let bad = |what: String| NestInputError::Bad { name: name.to_owned(), what };
+        let copies =
+            |p: &Part| (1..=p.quantity).map(|copy| (p.id.clone(), copy)).collect();
+        let ids = self.parts.iter().flat_map::<Vec<_>, _>(copies);
+        let mut index: BTreeMap<(String, usize), usize> = ids.zip(0..).collect();
+        let mut all = Vec::new();
+        for sheet in &self.sheets {
+            let by = sheet.corner();
+            let placement = |p: &Placed| {
+                let (part, copy) = (&p.part, p.copy);
+                let unknown =
+                    || bad(format!("{part} copy {copy} is no part of it, or lies twice"));
+                let shape = index.remove(&(part.clone(), copy)).ok_or_else(unknown)?;
+                let (x, y) = (p.x - by[0], p.y - by[1]);
+                Ok(Placement { shape, angle: p.angle_deg.to_radians(), x, y })
+            };
+            all.push(sheet.placements.iter().map(placement).collect::<Result<_, _>>()?);
+        }
+        Ok(all)
+    }
+}
+
+impl Sheet {
+    /// The lower left corner of the rectangle around it, where coordinates begin.
+    fn corner(&self) -> [f64; 2] {
+        let points = self.outline.iter().flatten();
+        let low = points
+            .fold([f64::INFINITY; 2], |low, &[x, y]| [low[0].min(x), low[1].min(y)]);
+        low.map(|mm| if mm.is_finite() { mm } else { 0.0 })
+    }
+
+    fn stock(&self, spacing: f64) -> Stock {
+        let [left, low] = self.corner();
+        let moved = |ring: &Ring, is_outer| -> Vec<Point2> {
+            let ring: Ring = ring.iter().map(|&[x, y]| [x - left, y - low]).collect();
+            points(&ring, is_outer)
         };
-        self.sheets.iter().map(stock).collect()
+        let whole = || match (self.width, self.height) {
+            (Some(w), Some(h)) if !self.holes.is_empty() => {
+                Some(vec![[0.0, 0.0], [w, 0.0], [w, h], [0.0, h]])
+            }
+            _ => None,
+        };
+        let remnant = self.outline.clone().or_else(whole).map(|outline| Remnant {
+            outline: moved(&outline, true),
+            holes: self.holes.iter().map(|hole| moved(hole, false)).collect(),
+        });
+        let corners = || remnant.iter().flat_map(|remnant| &remnant.outline);
+        let (right, top) =
+            corners().fold((0.0, 0.0), |(x, y): (f64, f64), p| (x.max(p.x), y.max(p.y)));
+        let size = [self.width.unwrap_or(right), self.height.unwrap_or(top)];
+        let mut stock = Stock::new(size, self.margin.unwrap_or(5.0), spacing);
+        (stock.count, stock.remnant) = (self.count, remnant);
+        stock.cost = self.cost.unwrap_or(stock.area() / 1e6);
+        stock
+    }
+}
+
+impl Order {
+    /// Takes out the parts that cannot be nested and says why.
+    ///
+    /// # Errors
+    /// If one of them is locked.
+    pub(super) fn refuse(&mut self) -> Result<Vec<NestError>, NestError> {
+        let why: Vec<Option<NestError>> = self.shapes.iter().map(nest::refused).collect();
+        for locked in self.stock.iter_mut().flat_map(|stock| &mut stock.locked) {
+            if let Some(error) = &why[locked.shape] {
+                return Err(error.clone());
+            }
+            locked.shape -= why[..locked.shape].iter().flatten().count();
+        }
+        let mut is_fine = why.iter().map(Option::is_none);
+        self.shapes.retain(|_| is_fine.next().unwrap_or(true));
+        Ok(why.into_iter().flatten().collect())
     }
 }
 
@@ -243,7 +322,9 @@ impl Part {
             _ => Turns::Free,
         };
         let rings = [&self.outline].into_iter().chain(&self.holes);
-        copies(&self.id, self.quantity, rings.collect(), turns)
+        let mut shapes = copies(&self.id, self.quantity, rings.collect(), turns);
+        shapes.iter_mut().for_each(|shape| shape.priority = self.priority);
+        shapes
     }
 }
 
@@ -269,7 +350,8 @@ fn degrees_only(degrees: &[f64]) -> Turns {
 fn copies(id: &str, count: usize, rings: Vec<&Ring>, turns: Turns) -> Vec<Shape> {
     let mut rings = rings.into_iter().enumerate().map(|(k, ring)| points(ring, k == 0));
     let outline = rings.next().unwrap_or_default();
-    let shape = Shape { name: id.to_owned(), outline, holes: rings.collect(), turns };
+    let (name, holes, priority) = (id.to_owned(), rings.collect(), 0);
+    let shape = Shape { name, outline, holes, turns, priority };
     vec![shape; count]
 }
 

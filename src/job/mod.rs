@@ -287,5 +287,5 @@ fn shape(part: &Part, kerf: Kerf, template: &Template) -> Shape {
     let holes = part.region.holes.iter();
     let hole = |hole| kerf.compensated(hole).flattened(ARC_SAGITTA_MM);
     let holes = holes.map(hole).collect();
-    Shape { name: part.id.clone(), outline, holes, turns: turns(template) }
+    Shape { name: part.id.clone(), outline, holes, turns: turns(template), priority: 0 }
 }

@@ -22,15 +22,17 @@ use thiserror::Error;
 #[derive(Debug, Clone, PartialEq, Error)]
 #[allow(missing_docs, reason = "the messages say what the fields are")]
 pub enum Fault {
-    #[error("sheet {sheet}: {first} and {second} overlap")]
+    #[error("sheet {}: {first} and {second} overlap", sheet + 1)]
     Overlap { sheet: usize, first: String, second: String },
-    #[error("sheet {sheet}: {first} and {second} are {distance:.6} mm apart")]
+    #[error("sheet {}: {first} and {second} are {distance:.6} mm apart", sheet + 1)]
     TooNear { sheet: usize, first: String, second: String, distance: f64 },
-    #[error("sheet {sheet}: the lines of {name} cross each other")]
+    #[error("sheet {}: the lines of {name} cross each other", sheet + 1)]
     CrossesItself { sheet: usize, name: String },
-    #[error("sheet {sheet}: {name} reaches into the margin by {by:.6} mm")]
+    #[error("sheet {}: {name} reaches into the margin by {by:.6} mm", sheet + 1)]
     InMargin { sheet: usize, name: String, by: f64 },
-    #[error("sheet {sheet}: the outlines cannot be triangulated: {reason}")]
+    #[error("sheet {}: {name} reaches over the edge of the remnant", sheet + 1)]
+    OverEdge { sheet: usize, name: String },
+    #[error("sheet {}: the outlines cannot be triangulated: {reason}", sheet + 1)]
     Unreadable { sheet: usize, reason: String },
 }
 
@@ -54,7 +56,14 @@ pub fn check(layout: &Layout, shapes: &[Shape], stock: &[Stock]) -> Vec<Fault> {
     sheets
         .flat_map(|(sheet, nested)| {
             let stock = &stock[nested.stock];
-            let rings = rings(nested, shapes);
+            let mut rings = rings(nested, shapes);
+            let owner = nested.placements.len();
+            let edge = |(k, points): (usize, &Vec<Point2>)| Ring {
+                owner,
+                is_hole: k > 0,
+                points: points.clone(),
+            };
+            rings.extend(stock.edges().enumerate().map(edge));
             Checked { sheet, nested, shapes, stock, rings }.faults()
         })
         .collect()
@@ -76,16 +85,16 @@ fn rings(nested: &NestedSheet, shapes: &[Shape]) -> Vec<Ring> {
 }
 
 /// An outline where it lies.
-fn placed(outline: &[Point2], placement: &Placement) -> Vec<Point2> {
+pub(super) fn placed(outline: &[Point2], placement: &Placement) -> Vec<Point2> {
     let (sin, cos) = (trig::sin(placement.angle), trig::cos(placement.angle));
     let turn = |p: &Point2| Vector2::new(cos * p.x - sin * p.y, sin * p.x + cos * p.y);
     let shift = Vector2::new(placement.x, placement.y);
     outline.iter().map(|p| Point2::from(turn(p) + shift)).collect()
 }
 
-/// One closed line of a part.
+/// One closed line of a part, or of the remnant they lie on.
 struct Ring {
-    /// Index of the placement.
+    /// Index of the placement; one more than the last for the remnant.
     owner: usize,
     is_hole: bool,
     points: Vec<Point2>,
@@ -104,7 +113,16 @@ impl Checked<'_> {
         self.shapes[self.nested.placements[owner].shape].name.clone()
     }
 
+    fn is_remnant(&self, owner: usize) -> bool {
+        owner == self.nested.placements.len()
+    }
+
     fn overlap(&self, first: usize, second: usize) -> Fault {
+        let part = [second, first].into_iter().find(|&owner| !self.is_remnant(owner));
+        if self.is_remnant(first) || self.is_remnant(second) {
+            let name = part.map(|part| self.name(part)).unwrap_or_default();
+            return Fault::OverEdge { sheet: self.sheet, name };
+        }
         let (first, second) = (self.name(first), self.name(second));
         Fault::Overlap { sheet: self.sheet, first, second }
     }
@@ -130,7 +148,8 @@ impl Checked<'_> {
             let low = (margin - p.x).max(margin - p.y);
             low.max(p.x - stock.width + margin).max(p.y - stock.height + margin)
         };
-        let outlines = self.rings.iter().filter(|ring| !ring.is_hole);
+        let parts = self.rings.iter().filter(|ring| !self.is_remnant(ring.owner));
+        let outlines = parts.filter(|ring| !ring.is_hole);
         let worst = |points: &[Point2]| {
             let out = points.iter().map(out);
             // Not a number is out, too.
@@ -143,13 +162,16 @@ impl Checked<'_> {
             .collect()
     }
 
-    /// Parts inside the material of another part, found by one corner of each.
+    /// Parts inside the material of another part, found by one corner of each; parts
+    /// beside the remnant, and holes of the remnant inside a part.
     fn nested_in_another(&self) -> Vec<Fault> {
-        let mut insides: Vec<Vec<usize>> = vec![Vec::new(); self.nested.placements.len()];
+        let count = self.nested.placements.len();
+        let mut insides: Vec<Vec<usize>> = vec![Vec::new(); count + 1];
         let bounds: Vec<(Point2, Point2)> =
             self.rings.iter().map(|ring| bounds(&ring.points)).collect();
         let mut faults = Vec::new();
-        for inner in self.rings.iter().filter(|ring| !ring.is_hole) {
+        let is_edge = |ring: &&Ring| self.is_remnant(ring.owner) == ring.is_hole;
+        for inner in self.rings.iter().filter(is_edge) {
             let p = inner.points[0];
             insides.iter_mut().for_each(Vec::clear);
             for (ring, (low, high)) in self.rings.iter().zip(&bounds) {
@@ -158,9 +180,15 @@ impl Checked<'_> {
                     insides[ring.owner].push(usize::from(ring.is_hole));
                 }
             }
-            // In the outline and in no hole.
-            let overlapped =
-                insides.iter().enumerate().filter(|(_, inside)| inside[..] == [0]);
+            // In the outline and in no hole; for the remnant it must be so.
+            let overlapped = insides.iter().enumerate().filter(|(outer, inside)| {
+                let is_wrong = if *outer < count {
+                    inside[..] == [0]
+                } else {
+                    self.stock.remnant.is_some() && inside[..] != [0]
+                };
+                is_wrong && *outer != inner.owner
+            });
             faults.extend(overlapped.map(|(outer, _)| self.overlap(inner.owner, outer)));
         }
         faults
@@ -223,33 +251,49 @@ impl Checked<'_> {
         if !faults.is_empty() {
             return faults;
         }
+        if self.is_remnant(owner) {
+            let name = "the remnant".to_owned();
+            return vec![Fault::CrossesItself { sheet: self.sheet, name }];
+        }
         vec![Fault::CrossesItself { sheet: self.sheet, name: self.name(owner) }]
     }
 
-    /// Corners nearer to an edge of another part than the spacing.
+    /// Corners nearer to an edge of another part than the spacing, or of the remnant than
+    /// the margin.
     fn too_near(&self, cdt: &ConstrainedDelaunayTriangulation<Corner>) -> Vec<Fault> {
-        let least = self.stock.spacing - PLACED_MM;
-        if least <= 0.0 {
+        let gap = |of_remnant: bool| match of_remnant {
+            true => self.stock.margin - PLACED_MM,
+            false => self.stock.spacing - PLACED_MM,
+        };
+        let has_edge = self.stock.remnant.is_some();
+        let reach = if has_edge { gap(true).max(gap(false)) } else { gap(false) };
+        if reach <= 0.0 {
             return Vec::new();
         }
         let mut faults = Vec::new();
         for vertex in cdt.vertices() {
             let (at, owner) = (vertex.position(), vertex.data().owner);
-            let near = cdt.get_edges_in_circle(at, least * least);
+            let near = cdt.get_edges_in_circle(at, reach * reach);
             for edge in near.filter(|edge| edge.is_constraint_edge()) {
                 let other = edge.vertices()[0].data().owner;
                 let distance = edge.distance_2(at).sqrt();
-                if other != owner && distance < least {
-                    faults.push(Fault::TooNear {
-                        sheet: self.sheet,
-                        first: self.name(owner),
-                        second: self.name(other),
-                        distance,
-                    });
+                let of_remnant = [owner, other].map(|k| self.is_remnant(k));
+                if other != owner && distance < gap(of_remnant != [false; 2]) {
+                    faults.push(self.near([owner, other], distance));
                 }
             }
         }
         faults
+    }
+
+    fn near(&self, [first, second]: [usize; 2], distance: f64) -> Fault {
+        let sheet = self.sheet;
+        if self.is_remnant(first) || self.is_remnant(second) {
+            let name = self.name(first.min(second));
+            return Fault::InMargin { sheet, name, by: self.stock.margin - distance };
+        }
+        let (first, second) = (self.name(first), self.name(second));
+        Fault::TooNear { sheet, first, second, distance }
     }
 }
 

@@ -24,26 +24,36 @@ impl Crowd<'_> {
         let mut scratch = Turned::default();
         for part in order {
             scratch.angle = f64::NAN;
-            let mut best: Option<(f64, Pose)> = None;
             self.rooms[0][2] = self.used(0) + self.reach_of(part, &mut scratch);
-            for _ in 0..FILL_SAMPLES {
-                let Some(pose) = self.anywhere(part, &mut scratch) else { continue };
-                let far = |pose: &Pose| pose.x + scratch.bounds[2] + 0.05 * pose.y;
-                if best.is_some_and(|(least, _)| far(&pose) >= least) {
-                    continue;
-                }
-                if self.cost(part, &scratch, pose, f64::MIN_POSITIVE) <= 0.0 {
-                    let pose = self.slid(part, &scratch, pose);
-                    best = Some((far(&pose), pose));
-                }
-            }
-            let pose =
-                best.map(|(_, pose)| pose).or_else(|| self.beyond(part, &mut scratch));
+            let pose = self.free_place(part, &mut scratch);
+            let pose = pose.or_else(|| self.beyond(part, &mut scratch));
             if let Some(pose) = pose {
                 self.put(part, pose);
             }
         }
         self.rooms[0][2] = self.used(0);
+    }
+
+    /// Where a part overlaps nothing and reaches least far to the right, of some random
+    /// places.
+    pub(super) fn free_place(
+        &mut self,
+        part: usize,
+        scratch: &mut Turned,
+    ) -> Option<Pose> {
+        let mut best: Option<(f64, Pose)> = None;
+        for _ in 0..FILL_SAMPLES {
+            let Some(pose) = self.anywhere(part, scratch) else { continue };
+            let far = |pose: &Pose| pose.x + scratch.bounds[2] + 0.05 * pose.y;
+            if best.is_some_and(|(least, _)| far(&pose) >= least) {
+                continue;
+            }
+            if self.cost(part, scratch, pose, f64::MIN_POSITIVE) <= 0.0 {
+                let pose = self.slid(part, scratch, pose);
+                best = Some((far(&pose), pose));
+            }
+        }
+        best.map(|(_, pose)| pose)
     }
 
     /// A length within which the part surely finds room.
@@ -89,7 +99,7 @@ impl Crowd<'_> {
 
     /// The right end of what lies in a room.
     pub(super) fn used(&self, room: usize) -> f64 {
-        let members = self.members.iter().filter(|m| !m.turned.is_empty());
+        let members = self.members.iter().filter(|m| !m.pose.is_nowhere());
         let inside = members.filter(|m| self.room_at(m.pose.x) == room);
         inside.map(|m| m.pose.x + m.turned.bounds[2]).fold(self.rooms[room][0], f64::max)
     }
@@ -112,32 +122,40 @@ impl Crowd<'_> {
         self.restore(&best.1);
     }
 
-    /// Shrinks in large steps; failed attempts are disrupted and tried again.
+    /// Shrinks in large steps.
     fn explore(
         &mut self,
         room: usize,
         best: &mut (f64, Vec<Pose>),
         budget: &mut Budget,
     ) -> bool {
-        let mut pool: Vec<(f64, Vec<Pose>)> = Vec::new();
         let mut improved = false;
-        self.narrow(room, best, STEP);
-        while !budget.over && pool.len() < ATTEMPTS {
-            if self.narrower(room, best.0, budget) {
-                *best = (self.used(room), self.poses());
-                improved = true;
-                pool.clear();
-                self.narrow(room, best, STEP);
-                continue;
+        while !budget.over {
+            self.narrow(room, best, STEP);
+            if !self.settle(budget) || self.used(room) >= best.0 {
+                break;
             }
+            *best = (self.used(room), self.poses());
+            improved = true;
+        }
+        improved
+    }
+
+    /// Separates; failed attempts are disrupted and tried again.
+    pub(super) fn settle(&mut self, budget: &mut Budget) -> bool {
+        let mut pool: Vec<(f64, Vec<Pose>)> = Vec::new();
+        while !self.separate(budget) {
             pool.push((self.total(), self.poses()));
+            if budget.over || pool.len() == ATTEMPTS {
+                return false;
+            }
             pool.sort_by(|a, b| a.0.total_cmp(&b.0));
             let pick = (self.random.normal().abs() * 0.25 * pool.len() as f64) as usize;
             let poses = pool[pick.min(pool.len() - 1)].1.clone();
             self.restore(&poses);
             self.disrupt();
         }
-        improved
+        true
     }
 
     /// Shrinks in small steps from the best layout.
@@ -151,7 +169,7 @@ impl Crowd<'_> {
         let mut improved = false;
         while step > last && !budget.over {
             self.narrow(room, best, step);
-            if self.narrower(room, best.0, budget) {
+            if self.separate(budget) && self.used(room) < best.0 {
                 *best = (self.used(room), self.poses());
                 improved = true;
             } else {
@@ -161,17 +179,11 @@ impl Crowd<'_> {
         improved
     }
 
-    /// Separates; `true` if the room's parts now reach less far than `before`. A part that
-    /// is too large for the narrow room stays where it was, without any overlap.
-    fn narrower(&mut self, room: usize, before: f64, budget: &mut Budget) -> bool {
-        self.separate(budget) && self.used(room) < before
-    }
-
     /// The best layout cut somewhere and pushed together.
     fn narrow(&mut self, room: usize, best: &(f64, Vec<Pose>), share: f64) {
         let left = self.rooms[room][0];
         let by = (best.0 - left) * share;
-        self.rooms[room][2] = f64::INFINITY;
+        self.rooms[room][2] = best.0;
         let cut = self.random.between(left, best.0);
         let rooms: Vec<usize> = best.1.iter().map(|pose| self.room_at(pose.x)).collect();
         self.rooms[room][2] = best.0 - by;
@@ -186,6 +198,7 @@ impl Crowd<'_> {
     /// Swaps two large parts of different shape.
     pub(super) fn disrupt(&mut self) {
         let mut order: Vec<usize> = (0..self.members.len()).collect();
+        order.retain(|&k| !self.members[k].fixed && !self.members[k].pose.is_nowhere());
         let size = |part: usize| self.shapes[self.members[part].shape].size;
         order.sort_by(|&a, &b| size(b).total_cmp(&size(a)).then(a.cmp(&b)));
         let all: f64 = order.iter().map(|&part| size(part)).sum();

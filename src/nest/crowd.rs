@@ -6,47 +6,10 @@
 //! spacing; each pair has a weight that grows while it overlaps (guided local search, as
 //! in Gardeyn et al., arXiv 2509.13329).
 
-use crate::geometry::Point2;
-use crate::nest::pieces::{area, pieces, width};
+use crate::nest::prepared::Prepared;
 use crate::nest::random::Random;
 use crate::nest::turned::{Bounds, Turned, meet};
-use crate::nest::{Placement, Shape, Turns, turn};
 use crate::tolerance::NEST_SLACK_MM;
-
-/// A shape ready for the search.
-#[derive(Debug)]
-pub(super) struct Prepared {
-    /// At angle 0 about `middle`.
-    still: Turned,
-    middle: Point2,
-    /// Allowed angles; empty if free.
-    pub(super) angles: Vec<f64>,
-    pub(super) size: f64,
-    pub(super) area: f64,
-    /// Share of this shape in a pair's loss: large parts count for more.
-    weight: f64,
-}
-
-/// Shapes ready for the search; the error is the index of one whose rings cross.
-pub(super) fn prepared(shapes: &[Shape], spacing: f64) -> Result<Vec<Prepared>, usize> {
-    let slimmest = shapes.iter().map(|s| width(&s.outline)).fold(f64::INFINITY, f64::min);
-    let gate = spacing + slimmest / 2.0;
-    let one = |(k, shape): (usize, &Shape)| {
-        let pieces = pieces(&shape.outline, &shape.holes, gate).ok_or(k)?;
-        let (low, high) = crate::nest::check::bounds(&shape.outline);
-        let middle = nalgebra::center(&low, &high);
-        let [long, wide] = turn::least_rectangle(&shape.outline);
-        let angles = match &shape.turns {
-            Turns::Free => Vec::new(),
-            Turns::Only(angles) => angles.iter().copied().map(turn::rounded).collect(),
-        };
-        let still = Turned::new(&pieces, middle);
-        let size = (long * wide).max(f64::MIN_POSITIVE);
-        let (area, weight) = (area(&shape.outline), size.sqrt().sqrt());
-        Ok(Prepared { still, middle, angles, size, area, weight })
-    };
-    shapes.iter().enumerate().map(one).collect()
-}
 
 /// Where a part's middle is, and its turn.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -56,22 +19,54 @@ pub(super) struct Pose {
     pub(super) y: f64,
 }
 
-/// One part in the crowd.
+impl Pose {
+    /// Of a part that is in no room.
+    pub(super) const NOWHERE: Self = Self { angle: 0.0, x: f64::NAN, y: f64::NAN };
+
+    pub(super) const fn is_nowhere(&self) -> bool {
+        self.x.is_nan()
+    }
+}
+
+/// One part in the crowd, or the wall around a remnant.
 #[derive(Debug, Clone)]
 pub(super) struct Member {
     pub(super) shape: usize,
     pub(super) pose: Pose,
     pub(super) turned: Turned,
+    /// It stays where it is.
+    pub(super) fixed: bool,
+    /// Distance that parts keep from it, mm.
+    gap: f64,
 }
+
+impl Member {
+    /// A part that is in no room yet.
+    pub(super) fn part(shape: usize, spacing: f64) -> Self {
+        let (pose, turned, gap) =
+            (Pose::NOWHERE, Turned::default(), spacing + NEST_SLACK_MM);
+        Self { shape, pose, turned, fixed: false, gap }
+    }
+
+    /// The wall around a remnant.
+    pub(super) fn wall(shape: usize, margin: f64) -> Self {
+        Self { fixed: true, ..Self::part(shape, margin) }
+    }
+}
+
+/// Box of what is in no room.
+const NO_BOUNDS: Bounds = [f64::INFINITY, 0.0, f64::NEG_INFINITY, 0.0];
 
 #[derive(Debug)]
 pub(super) struct Crowd<'a> {
     pub(super) shapes: &'a [Prepared],
+    /// Parts, then walls.
     pub(super) members: Vec<Member>,
     pub(super) rooms: Vec<Bounds>,
     pub(super) random: Random,
     /// Evaluations so far.
     pub(super) work: u64,
+    /// The largest gap.
     spacing: f64,
     bounds: Vec<Bounds>,
     losses: Vec<f64>,
@@ -79,26 +74,24 @@ pub(super) struct Crowd<'a> {
 }
 
 impl<'a> Crowd<'a> {
+    /// All in no room.
     pub(super) fn new(
         shapes: &'a [Prepared],
+        members: Vec<Member>,
         rooms: Vec<Bounds>,
-        spacing: f64,
-        seed: u64,
+        random: Random,
     ) -> Self {
-        let count = shapes.len();
-        let pose = Pose { angle: 0.0, x: 0.0, y: 0.0 };
-        let member = |shape| Member { shape, pose, turned: Turned::default() };
+        let count = members.len();
         Self {
             shapes,
-            members: (0..count).map(member).collect(),
             rooms,
-            random: Random::new(seed),
+            random,
             work: 0,
-            spacing: spacing + NEST_SLACK_MM,
-            // Nowhere, until they are put.
-            bounds: vec![[f64::INFINITY, 0.0, f64::NEG_INFINITY, 0.0]; count],
+            spacing: members.iter().map(|member| member.gap).fold(0.0, f64::max),
+            bounds: vec![NO_BOUNDS; count],
             losses: vec![0.0; count * count],
             weights: vec![1.0; count * count],
+            members,
         }
     }
 
@@ -133,6 +126,18 @@ impl<'a> Crowd<'a> {
         Some(Pose { x, y: pose.y.clamp(range[1], range[3]), ..pose })
     }
 
+    /// Takes a part out of its room.
+    pub(super) fn take_out(&mut self, part: usize) {
+        let member = &mut self.members[part];
+        (member.turned, member.pose) = (Turned::default(), Pose::NOWHERE);
+        self.bounds[part] = NO_BOUNDS;
+        let count = self.members.len();
+        for other in 0..count {
+            self.losses[part * count + other] = 0.0;
+            self.losses[other * count + part] = 0.0;
+        }
+    }
+
     /// Puts a part somewhere and sums up its losses.
     pub(super) fn put(&mut self, part: usize, pose: Pose) {
         let mut turned = std::mem::take(&mut self.members[part].turned);
@@ -149,15 +154,23 @@ impl<'a> Crowd<'a> {
     }
 
     fn pair_loss(&self, part: usize, other: usize) -> f64 {
-        if part == other || !meet(&self.reach(part), &self.bounds[other]) {
+        let Member { pose, turned, fixed, .. } = &self.members[part];
+        // What may not move is as it is.
+        let cannot = part == other || (*fixed && self.members[other].fixed);
+        if cannot || !meet(&self.reach(part), &self.bounds[other]) {
             return 0.0;
         }
-        let Member { pose, turned, .. } = &self.members[part];
         self.loss_at(part, other, (turned, *pose), f64::INFINITY)
     }
 
     pub(super) const fn spacing(&self) -> f64 {
         self.spacing
+    }
+
+    /// Distance that two must keep: walls have their own.
+    fn gap(&self, part: usize, other: usize) -> f64 {
+        let [a, b] = [part, other].map(|k| &self.members[k]);
+        if b.fixed { b.gap } else { a.gap }
     }
 
     fn reach(&self, part: usize) -> Bounds {
@@ -177,7 +190,8 @@ impl<'a> Crowd<'a> {
         let weight = |k: usize| self.shapes[self.members[k].shape].weight;
         let weight = weight(part) * weight(other);
         let enough = (enough / weight).powi(2);
-        let overlap = turned.overlap(&there.turned, by, self.spacing, enough);
+        let gap = self.gap(part, other);
+        let overlap = turned.overlap(&there.turned, by, gap, enough);
         if overlap <= 0.0 { 0.0 } else { overlap.sqrt() * weight }
     }
 
@@ -245,61 +259,18 @@ impl<'a> Crowd<'a> {
     /// Puts all parts, as far as they fit their rooms by being moved.
     pub(super) fn restore(&mut self, poses: &[Pose]) {
         for (part, &pose) in poses.iter().enumerate() {
+            if pose.is_nowhere() {
+                self.take_out(part);
+                continue;
+            }
             let mut turned = std::mem::take(&mut self.members[part].turned);
             self.turn(part, pose.angle, &mut turned);
-            let pose = self.inside(&turned, pose).unwrap_or(pose);
+            let fixed = self.members[part].fixed;
+            let inside = if fixed { None } else { self.inside(&turned, pose) };
             self.members[part].turned = turned;
-            self.put(part, pose);
+            self.put(part, inside.unwrap_or(pose));
         }
     }
-
-    /// The placement of a part in the coordinates of its room's sheet, whose lower left
-    /// inner corner is at `corner`.
-    pub(super) fn placement(
-        &self,
-        part: usize,
-        pose: Pose,
-        corner: [f64; 2],
-    ) -> Placement {
-        let room = self.rooms[self.room_at(pose.x)];
-        placement(
-            &self.shapes[self.members[part].shape],
-            part,
-            pose,
-            [corner[0] - room[0], corner[1] - room[1]],
-        )
-    }
-
-    /// The pose of a placement on the sheet of a room.
-    pub(super) fn pose(
-        &self,
-        placement: &Placement,
-        room: usize,
-        corner: [f64; 2],
-    ) -> Pose {
-        let middle = self.shapes[placement.shape].middle;
-        let (x, y) = turned_point(middle, placement.angle);
-        let room = self.rooms[room];
-        Pose {
-            angle: placement.angle,
-            x: placement.x + x + room[0] - corner[0],
-            y: placement.y + y + room[1] - corner[1],
-        }
-    }
-}
-
-fn placement(shape: &Prepared, part: usize, pose: Pose, by: [f64; 2]) -> Placement {
-    let angle = turn::rounded(pose.angle);
-    let (x, y) = turned_point(shape.middle, angle);
-    let rounded = |mm: f64| (mm * 1e6).round() / 1e6;
-    let (x, y) = (rounded(pose.x + by[0] - x), rounded(pose.y + by[1] - y));
-    Placement { shape: part, angle, x, y }
-}
-
-fn turned_point(p: Point2, angle: f64) -> (f64, f64) {
-    use crate::geometry::trig;
-    let (sin, cos) = (trig::sin(angle), trig::cos(angle));
-    (cos * p.x - sin * p.y, sin * p.x + cos * p.y)
 }
 
 fn moved(bounds: &Bounds, by: &Pose) -> Bounds {

@@ -40,6 +40,23 @@ pub enum NestError {
     )]
     BadOutline { name: String, why: &'static str },
 
+    #[error("sheet {sheet} of the stock cannot be used: {why}")]
+    #[diagnostic(
+        code(read::bad_remnant),
+        help(
+            "give the edge of the remnant, and holes in it, each as one closed line that \
+             neither crosses nor touches another"
+        )
+    )]
+    BadRemnant { sheet: usize, why: &'static str },
+
+    #[error("the parts that are to stay where they are cannot: {fault}")]
+    #[diagnostic(
+        code(read::bad_placement),
+        help("move the part, or take its placement out and let it be nested")
+    )]
+    BadPlacement { fault: String },
+
     #[error("no sound layout was found: {fault}")]
     #[diagnostic(
         code(nest::unsound),
@@ -76,7 +93,10 @@ impl Located for NestError {
             Self::PartTooLarge { name, .. }
             | Self::BadOutline { name, .. }
             | Self::StockUsedUp { name } => Place::part(name.clone()),
-            Self::Unsound { .. } | Self::Stopped => Place::default(),
+            Self::BadRemnant { .. }
+            | Self::BadPlacement { .. }
+            | Self::Unsound { .. }
+            | Self::Stopped => Place::default(),
         }
     }
 }

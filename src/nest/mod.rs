@@ -11,18 +11,27 @@ mod compress;
 mod crowd;
 mod drop;
 mod error;
+mod exchange;
+mod free;
+mod mesh;
+mod odd;
 mod pieces;
+mod prepared;
 mod random;
 mod refuse;
 mod search;
 mod separate;
 mod start;
+mod stock;
 mod turn;
 mod turned;
+mod yard;
 
 pub use check::{Fault, check};
 pub use error::NestError;
+pub use free::free;
 pub use refuse::refused;
+pub use stock::{Remnant, Stock, refused_stock};
 pub use turn::fits;
 
 use crate::geometry::Point2;
@@ -42,6 +51,8 @@ pub struct Shape {
     pub holes: Vec<Vec<Point2>>,
     /// Which turns are allowed.
     pub turns: Turns,
+    /// Parts of higher priority are placed first when there is not room for all.
+    pub priority: i32,
 }
 
 /// How a part may be turned on the sheet.
@@ -51,21 +62,6 @@ pub enum Turns {
     Free,
     /// Only by these angles, radians.
     Only(Vec<f64>),
-}
-
-/// A size of sheet one can buy or has in the rack.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Stock {
-    /// Width, mm.
-    pub width: f64,
-    /// Height, mm.
-    pub height: f64,
-    /// Strip along the sheet's edge that stays free, mm.
-    pub margin: f64,
-    /// Least distance between two parts, mm.
-    pub spacing: f64,
-    /// How many there are; `None` is as many as needed.
-    pub count: Option<usize>,
 }
 
 /// Where a part lies: turned about its origin, then moved.
@@ -161,36 +157,41 @@ pub fn search(
     effort: &Effort,
     watch: &mut dyn Watch,
 ) -> Result<Found, NestError> {
-    let (start, unplaced) = start::start(shapes, stock, effort, watch)?;
+    if let Some(error) = refused_stock(shapes, stock) {
+        return Err(error);
+    }
+    let start = start::start(shapes, stock, effort, watch)?;
     if effort.trials <= 1 {
+        let unplaced = unplaced(&start, shapes, stock);
         return Ok(Found { layout: start, unplaced, trials: 1 });
     }
     let mut budget = budget(effort, watch);
-    let (placed, first) = placed(&start, shapes);
-    let denser = search::denser(&first, &placed.1, stock, effort.seed, &mut budget);
+    let parts = (0..shapes.len()).filter(|&k| fits_any(&shapes[k], stock)).collect();
+    let denser = search::denser(&start, parts, (shapes, stock), effort.seed, &mut budget);
     let trials = trials(&budget);
-    let back = |mut layout: Layout| {
-        for placement in layout.sheets.iter_mut().flat_map(|s| &mut s.placements) {
-            placement.shape = placed.0[placement.shape];
-        }
-        layout
-    };
     let sound = |layout: &Layout| check(layout, shapes, stock).is_empty();
-    let layout = denser.map(back).filter(sound).unwrap_or(start);
+    let layout = denser.filter(sound).unwrap_or(start);
+    let unplaced = unplaced(&layout, shapes, stock);
     Ok(Found { layout, unplaced, trials })
 }
 
-/// The shapes on a layout, with the indices they have among all, and the layout of them.
-fn placed(layout: &Layout, shapes: &[Shape]) -> ((Vec<usize>, Vec<Shape>), Layout) {
+fn fits_any(shape: &Shape, stock: &[Stock]) -> bool {
+    stock.iter().any(|sheet| fits(&shape.outline, &shape.turns, sheet).is_some())
+}
+
+/// Why each part that is on no sheet is on none.
+fn unplaced(layout: &Layout, shapes: &[Shape], stock: &[Stock]) -> Vec<NestError> {
+    let mut is_on = vec![false; shapes.len()];
     let on = layout.sheets.iter().flat_map(|sheet| &sheet.placements);
-    let mut indices: Vec<usize> = on.map(|placement| placement.shape).collect();
-    indices.sort_unstable();
-    let mut layout = layout.clone();
-    for placement in layout.sheets.iter_mut().flat_map(|s| &mut s.placements) {
-        placement.shape = indices.partition_point(|&k| k < placement.shape);
-    }
-    let shapes = indices.iter().map(|&k| shapes[k].clone()).collect();
-    ((indices, shapes), layout)
+    on.for_each(|placement| is_on[placement.shape] = true);
+    let (large, left): (Vec<&Shape>, Vec<&Shape>) = shapes
+        .iter()
+        .zip(&is_on)
+        .filter(|(_, is_on)| !**is_on)
+        .map(|(shape, _)| shape)
+        .partition(|shape| !fits_any(shape, stock));
+    let large = large.into_iter().map(|shape| NestError::too_large(shape, stock));
+    large.chain(left.into_iter().map(NestError::used_up)).collect()
 }
 
 /// Packs all shapes into a strip as high as the sheet and as short as can be; the sheet's

@@ -1,5 +1,6 @@
 //! Shapes that no layout could be checked with.
 
+use crate::geometry::Point2;
 use crate::geometry::predicates::{contains, is_simple, segments_meet};
 use crate::nest::check::bounds;
 use crate::nest::pieces::area;
@@ -10,11 +11,13 @@ const FARTHEST: f64 = 1e6;
 
 /// Why a shape cannot be nested, if it cannot.
 pub fn refused(shape: &Shape) -> Option<NestError> {
-    why(shape).map(|why| NestError::BadOutline { name: shape.name.clone(), why })
+    why(&shape.outline, &shape.holes)
+        .map(|why| NestError::BadOutline { name: shape.name.clone(), why })
 }
 
-fn why(shape: &Shape) -> Option<&'static str> {
-    let rings = || std::iter::once(&shape.outline).chain(&shape.holes);
+/// Why no layout could be checked with such an outline and its holes, if none could.
+pub(super) fn why(outline: &Vec<Point2>, holes: &[Vec<Point2>]) -> Option<&'static str> {
+    let rings = || std::iter::once(outline).chain(holes);
     let mut corners = rings().flatten();
     if corners.any(|p| !(p.x.abs() <= FARTHEST && p.y.abs() <= FARTHEST)) {
         return Some("a coordinate is beyond 1,000,000 mm");

@@ -89,6 +89,7 @@ impl Crowd<'_> {
     fn round(&mut self) {
         let mut bad: Vec<usize> =
             (0..self.members.len()).filter(|&part| self.loss(part) > 0.0).collect();
+        bad.retain(|&part| !self.members[part].fixed);
         self.random.shuffle(&mut bad);
         for part in bad {
             let now = self.cost_now(part);

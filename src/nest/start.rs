@@ -4,7 +4,7 @@
 
 use crate::nest::drop::Board;
 use crate::nest::random::Random;
-use crate::nest::{Effort, Layout, NestError, Shape, Stock, check, fits, turn};
+use crate::nest::{Effort, Layout, NestError, Shape, Stock, check, fits_any, odd, turn};
 use crate::watch::Watch;
 
 /// Sheets that are still open for further parts.
@@ -13,19 +13,21 @@ const OPEN_SHEETS: usize = 4;
 const ORDERS: u32 = 8;
 const MANY_PARTS: usize = 1000;
 
-/// The cheapest of some layouts, and what found no place, with the reason.
+/// The cheapest of some layouts with most of what is important on it.
 pub(super) fn start(
     shapes: &[Shape],
     stock: &[Stock],
     effort: &Effort,
     watch: &mut dyn Watch,
-) -> Result<(Layout, Vec<NestError>), NestError> {
-    let fit = |k: &usize| {
-        let Shape { outline, turns, .. } = &shapes[*k];
-        stock.iter().any(|sheet| fits(outline, turns, sheet).is_some())
-    };
-    let (fitting, too_large): (Vec<usize>, Vec<usize>) = (0..shapes.len()).partition(fit);
-    let mut best: Option<(usize, f64, Layout, Vec<usize>)> = None;
+) -> Result<Layout, NestError> {
+    let mut open = vec![true; shapes.len()];
+    stock.iter().flat_map(|s| &s.locked).for_each(|p| open[p.shape] = false);
+    let mut fitting: Vec<usize> = (0..shapes.len()).collect();
+    fitting.retain(|&k| open[k] && fits_any(&shapes[k], stock));
+    let (cheap, dear) = odd::kinds(stock);
+    let first = order(shapes, &fitting, 0, effort.seed);
+    let (cheap, rest) = odd::fill(shapes, stock, &cheap, first, effort.seed);
+    let mut best: Option<(Vec<i32>, f64, Layout)> = None;
     let mut failure = NestError::Stopped;
     let orders =
         if shapes.len() > MANY_PARTS { 1 } else { effort.trials.clamp(1, ORDERS) };
@@ -34,28 +36,35 @@ pub(super) fn start(
         if watch.stopped() {
             break;
         }
-        let order = order(shapes, &fitting, trial, effort.seed);
+        let order = order(shapes, &rest, trial, effort.seed);
         let (boards, left) = lay(shapes, stock, &order);
-        match sound(boards, shapes, stock) {
-            Ok((cost, layout)) => {
-                let rank = |best: &(usize, f64, Layout, Vec<usize>)| {
-                    left.len().cmp(&best.0).then(cost.total_cmp(&best.1)).is_lt()
-                };
-                if best.as_ref().is_none_or(rank) {
-                    best = Some((left.len(), cost, layout, left));
-                }
-            }
-            Err(error) => failure = error,
+        let boards = smaller(boards, shapes, stock);
+        let last = boards.last().map_or(0.0, Board::filled);
+        let (dear, left) = odd::fill(shapes, stock, &dear, left, effort.seed);
+        let nested = boards.into_iter().map(Board::nested);
+        let layout =
+            Layout { sheets: cheap.iter().cloned().chain(nested).chain(dear).collect() };
+        if let Some(fault) = check(&layout, shapes, stock).first() {
+            failure = NestError::Unsound { fault: fault.to_string() };
+            continue;
+        }
+        let mut missing: Vec<i32> = left.iter().map(|&k| shapes[k].priority).collect();
+        missing.sort_by(|a, b| b.cmp(a));
+        let cost: f64 = layout.sheets.iter().map(|s| stock[s.stock].cost).sum();
+        // How far the last sheet is filled decides between layouts of the same cost.
+        let cost = cost * (1.0 + f64::EPSILON.sqrt() * last);
+        let is_better = |best: &(Vec<i32>, f64, Layout)| {
+            missing.cmp(&best.0).then(cost.total_cmp(&best.1)).is_lt()
+        };
+        if best.as_ref().is_none_or(is_better) {
+            best = Some((missing, cost, layout));
         }
     }
-    let (_, _, layout, left) = best.ok_or(failure)?;
-    let too_large =
-        too_large.into_iter().map(|k| NestError::too_large(&shapes[k], stock));
-    let left = left.into_iter().map(|k| NestError::used_up(&shapes[k]));
-    Ok((layout, too_large.chain(left).collect()))
+    best.map(|(_, _, layout)| layout).ok_or(failure)
 }
 
-/// Large parts first; later trials shuffle sizes by up to a third.
+/// Important parts first if there may not be room for all, then large ones; later trials
+/// shuffle sizes by up to a third.
 fn order(shapes: &[Shape], fitting: &[usize], trial: u32, seed: u64) -> Vec<usize> {
     let mut random = Random::new(seed ^ (u64::from(trial) << 32));
     let keys = fitting.iter().map(|&k| {
@@ -63,7 +72,10 @@ fn order(shapes: &[Shape], fitting: &[usize], trial: u32, seed: u64) -> Vec<usiz
         (k, turn::longest(&shapes[k].outline) * (1.0 + 0.6 * shuffle))
     });
     let mut keyed: Vec<(usize, f64)> = keys.collect();
-    keyed.sort_by(|a, b| b.1.total_cmp(&a.1).then(a.0.cmp(&b.0)));
+    keyed.sort_by(|a, b| {
+        let priority = shapes[b.0].priority.cmp(&shapes[a.0].priority);
+        priority.then(b.1.total_cmp(&a.1)).then(a.0.cmp(&b.0))
+    });
     keyed.into_iter().map(|(index, _)| index).collect()
 }
 
@@ -79,7 +91,8 @@ fn lay(shapes: &[Shape], stock: &[Stock], order: &[usize]) -> (Vec<Board>, Vec<u
         }
         let used =
             |kind: usize| boards.iter().filter(|board| board.stock == kind).count();
-        let fresh = stock.iter().enumerate().find_map(|(kind, sheet)| {
+        let plain = stock.iter().enumerate().filter(|(_, sheet)| sheet.is_plain());
+        let fresh = plain.into_iter().find_map(|(kind, sheet)| {
             let left = sheet.count.is_none_or(|count| used(kind) < count);
             let mut board = Board::new(kind, sheet);
             (left && board.place(index, shape)).then_some(board)
@@ -92,37 +105,20 @@ fn lay(shapes: &[Shape], stock: &[Stock], order: &[usize]) -> (Vec<Board>, Vec<u
     (boards, left_over)
 }
 
-/// Smaller sheets where they do, then the exact check; the first value is the cost.
-fn sound(
-    boards: Vec<Board>,
-    shapes: &[Shape],
-    stock: &[Stock],
-) -> Result<(f64, Layout), NestError> {
-    let boards = smaller(boards, shapes, stock);
-    let area = |board: &Board| stock[board.stock].width * stock[board.stock].height;
-    let last = boards.last().map_or(0.0, |board| board.filled() / 1e3);
-    let cost = boards.iter().map(area).sum::<f64>() + last;
-    let sheets = boards.into_iter().map(Board::nested).collect();
-    let layout = Layout { sheets };
-    match check(&layout, shapes, stock).first() {
-        None => Ok((cost, layout)),
-        Some(fault) => Err(NestError::Unsound { fault: fault.to_string() }),
-    }
-}
-
-/// Each sheet as the smallest size on which its parts still fit.
+/// Each sheet as the cheapest one on which its parts still fit.
 fn smaller(boards: Vec<Board>, shapes: &[Shape], stock: &[Stock]) -> Vec<Board> {
     let mut used = vec![0; stock.len()];
     for board in &boards {
         used[board.stock] += 1;
     }
-    let area = |kind: usize| stock[kind].width * stock[kind].height;
+    let cost = |kind: usize| stock[kind].cost;
     let mut kinds: Vec<usize> = (0..stock.len()).collect();
-    kinds.sort_by(|&a, &b| area(a).total_cmp(&area(b)).then(a.cmp(&b)));
+    kinds.retain(|&kind| stock[kind].is_plain());
+    kinds.sort_by(|&a, &b| cost(a).total_cmp(&cost(b)).then(a.cmp(&b)));
     let mut shrink = |board: Board| {
         let fitting = kinds.iter().copied().find_map(|kind| {
             let left = stock[kind].count.is_none_or(|count| used[kind] < count);
-            if area(kind) >= area(board.stock) || !left {
+            if cost(kind) >= cost(board.stock) || !left {
                 return None;
             }
             let mut small = Board::new(kind, &stock[kind]);

@@ -95,13 +95,7 @@ fn each_alone(parts: &[Part], kerf: Kerf) -> (Layout, Vec<Stock>) {
         let size = Point2::new(up(high.x - low.x), up(high.y - low.y));
         let placement = Placement { shape, angle: 0.0, x: up(-low.x), y: up(-low.y) };
         sheets.push(NestedSheet { stock: stock.len(), placements: vec![placement] });
-        stock.push(Stock {
-            width: size.x,
-            height: size.y,
-            margin: 0.0,
-            spacing: 0.0,
-            count: Some(1),
-        });
+        stock.push(Stock { count: Some(1), ..Stock::new([size.x, size.y], 0.0, 0.0) });
     }
     (Layout { sheets }, stock)
 }

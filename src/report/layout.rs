@@ -1,7 +1,7 @@
 //! `layout.json`: where parts lie, how full the sheets are and what is left over.
 
 use crate::geometry::{Contour, Point2};
-use crate::nest::{Layout, NestError, NestedSheet, Shape, Stock};
+use crate::nest::{self, Layout, NestError, NestedSheet, Remnant, Shape, Stock, Turns};
 use crate::sheets::{Operation, Path, Sheet, Stroke, placed};
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
@@ -39,7 +39,7 @@ pub fn layout_json(
     let writer = Writer { shapes, stock, copies: copies(shapes) };
     let sheets = nested.layout.sheets.iter().enumerate();
     let sheets: Vec<Value> = sheets.map(|(k, sheet)| writer.sheet(k, sheet)).collect();
-    let area = |s: &NestedSheet| stock[s.stock].width * stock[s.stock].height;
+    let area = |s: &NestedSheet| stock[s.stock].area();
     let all: f64 = nested.layout.sheets.iter().map(area).sum();
     let used: f64 = nested.layout.sheets.iter().map(|s| writer.used(s)).sum();
     let outlines = |s: &NestedSheet| -> f64 {
@@ -55,6 +55,7 @@ pub fn layout_json(
         "work": nested.trials,
         "spacing": stock.first().map(|s| s.spacing),
         "utilisation": mm(used / all.max(f64::MIN_POSITIVE)),
+        "cost": mm(nested.layout.sheets.iter().map(|s| stock[s.stock].cost).sum()),
         "length": nested.length,
         "density": nested.length.map(|_| mm(closed / all)),
         "sheets": sheets,
@@ -78,6 +79,14 @@ fn ring_area(ring: &[Point2]) -> f64 {
     Contour::polygon(ring.iter().copied()).signed_area().abs()
 }
 
+fn net_area(outline: &[Point2], holes: &[Vec<Point2>]) -> f64 {
+    ring_area(outline) - holes.iter().map(|hole| ring_area(hole)).sum::<f64>()
+}
+
+fn ring(points: &[Point2]) -> Vec<Value> {
+    points.iter().map(|p| json!([mm(p.x), mm(p.y)])).collect()
+}
+
 struct Writer<'a> {
     shapes: &'a [Shape],
     stock: &'a [Stock],
@@ -86,11 +95,8 @@ struct Writer<'a> {
 
 impl Writer<'_> {
     fn used(&self, sheet: &NestedSheet) -> f64 {
-        let net = |shape: &Shape| {
-            let holes: f64 = shape.holes.iter().map(|hole| ring_area(hole)).sum();
-            ring_area(&shape.outline) - holes
-        };
-        sheet.placements.iter().map(|p| net(&self.shapes[p.shape])).sum()
+        let shapes = sheet.placements.iter().map(|p| &self.shapes[p.shape]);
+        shapes.map(|shape| net_area(&shape.outline, &shape.holes)).sum()
     }
 
     fn sheet(&self, index: usize, nested: &NestedSheet) -> Value {
@@ -98,24 +104,43 @@ impl Writer<'_> {
         let id = sheet_id(index);
         let file = |ending: &str| format!("sheets/{id}.{ending}");
         let placements = nested.placements.iter().map(|p| {
-            json!({
+            let mut placement = json!({
                 "part": self.shapes[p.shape].name,
                 "copy": self.copies[p.shape],
                 "x": mm(p.x),
                 "y": mm(p.y),
                 "angle_deg": degrees(p.angle),
-            })
+            });
+            if stock.locked.contains(p) {
+                placement["locked"] = true.into();
+            }
+            placement
         });
-        json!({
+        let mut sheet = json!({
             "id": id,
             "width": stock.width,
             "height": stock.height,
             "margin": stock.margin,
-            "files": {"dxf": file("dxf"), "svg": file("svg"), "png": file("png")},
-            "utilisation": mm(self.used(nested) / (stock.width * stock.height)),
-            "offcut": self.offcut(nested),
+            "files": {"dxf": file("dxf"), "svg": file("svg"), "png": file("png"), "free": free_file(&id)},
+            "cost": stock.cost,
+            "utilisation": mm(self.used(nested) / stock.area()),
+            "offcut": stock.remnant.is_none().then(|| self.offcut(nested)),
+            "free": nest::free(nested, self.shapes, stock)
+                .iter()
+                .map(|region| json!({
+                    "area": mm(net_area(&region.outline, &region.holes)),
+                    "outline": ring(&region.outline),
+                    "holes": region.holes.iter().map(|hole| ring(hole)).collect::<Vec<_>>(),
+                }))
+                .collect::<Vec<_>>(),
             "placements": placements.collect::<Vec<_>>(),
-        })
+        });
+        if let Some(Remnant { outline, holes }) = &stock.remnant {
+            sheet["outline"] = ring(outline).into();
+            sheet["holes"] =
+                holes.iter().map(|hole| ring(hole)).collect::<Vec<_>>().into();
+        }
+        sheet
     }
 
     /// The larger rectangle that can be cut off to the right of all parts, or above them.
@@ -140,19 +165,30 @@ impl Writer<'_> {
         for shape in self.shapes {
             *quantity.entry(&shape.name).or_default() += 1;
         }
-        let ring =
+        let exact =
             |ring: &Vec<Point2>| ring.iter().map(|p| [p.x, p.y]).collect::<Vec<_>>();
         let firsts = self.shapes.iter().zip(&self.copies).filter(|(_, copy)| **copy == 1);
         let part = |(shape, _): (&Shape, &usize)| {
             json!({
                 "id": shape.name,
                 "quantity": quantity[shape.name.as_str()],
-                "outline": ring(&shape.outline),
-                "holes": shape.holes.iter().map(ring).collect::<Vec<_>>(),
+                "priority": shape.priority,
+                "rotations": match &shape.turns {
+                    Turns::Free => json!("free"),
+                    Turns::Only(angles) => {
+                        angles.iter().map(|&angle| degrees(angle)).collect::<Vec<_>>().into()
+                    }
+                },
+                "outline": exact(&shape.outline),
+                "holes": shape.holes.iter().map(exact).collect::<Vec<_>>(),
             })
         };
         firsts.map(part).collect()
     }
+}
+
+fn free_file(sheet: &str) -> String {
+    format!("free/{sheet}.png")
 }
 
 fn sheet_id(index: usize) -> String {
@@ -179,8 +215,6 @@ pub fn layout_sheets(
 ) -> Vec<Sheet> {
     let sheet = |(index, nested): (usize, &NestedSheet)| {
         let Stock { width, height, .. } = stock[nested.stock];
-        let corners = [(0.0, 0.0), (width, 0.0), (width, height), (0.0, height)];
-        let border = Contour::polygon(corners.map(|(x, y)| Point2::new(x, y)));
         let mut strokes: Vec<Stroke> = Vec::new();
         for p in &nested.placements {
             let shape = &shapes[p.shape];
@@ -191,8 +225,45 @@ pub fn layout_sheets(
             }));
         }
         strokes.sort_by_key(|stroke| stroke.operation);
-        let frame = vec![Path::Closed(border)];
+        let frame = border(&stock[nested.stock]);
         Sheet { id: sheet_id(index), width, height, strokes, frame }
     };
     layout.sheets.iter().enumerate().map(sheet).collect()
+}
+
+/// The edges of a sheet.
+fn border(stock: &Stock) -> Vec<Path> {
+    let closed =
+        |ring: &Vec<Point2>| Path::Closed(Contour::polygon(ring.iter().copied()));
+    if stock.remnant.is_some() {
+        return stock.edges().map(closed).collect();
+    }
+    let (w, h) = (stock.width, stock.height);
+    let corners = [(0.0, 0.0), (w, 0.0), (w, h), (0.0, h)];
+    vec![closed(&corners.map(|(x, y)| Point2::new(x, y)).to_vec())]
+}
+
+/// Maps of the free space, and the paths of their pictures: what is free is tinted, parts
+/// are only lines.
+pub fn free_maps(
+    shapes: &[Shape],
+    stock: &[Stock],
+    layout: &Layout,
+    lines: &Lines,
+) -> Vec<(String, Sheet)> {
+    let sheets = layout_sheets(shapes, stock, layout, lines).into_iter();
+    let map = |(mut sheet, nested): (Sheet, &NestedSheet)| {
+        sheet.strokes.iter_mut().for_each(|stroke| stroke.operation = Operation::Score);
+        let regions = nest::free(nested, shapes, &stock[nested.stock]);
+        for (part, Remnant { outline, holes }) in regions.iter().enumerate() {
+            let edges = std::iter::once(outline).chain(holes);
+            sheet.strokes.extend(edges.map(|ring| Stroke {
+                operation: Operation::CutOuter,
+                part,
+                path: Path::Closed(Contour::polygon(ring.iter().copied())),
+            }));
+        }
+        (free_file(&sheet.id), sheet)
+    };
+    sheets.zip(&layout.sheets).map(map).collect()
 }

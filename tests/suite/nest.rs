@@ -2,7 +2,11 @@
 //! what is placed never overlaps.
 
 use finwright::geometry::{Point2, trig};
-use finwright::nest::{Effort, Shape, Stock, Turns, check, refused, search, strip};
+use finwright::nest::{
+    Effort, Fault, Layout, NestedSheet, Placement, Remnant, Shape, Stock, Turns, check,
+    refused, refused_stock, search, strip,
+};
+use finwright::watch::Watch;
 use std::collections::BTreeSet;
 use std::f64::consts::TAU;
 
@@ -84,14 +88,14 @@ fn part(k: usize, dice: &mut Dice) -> Shape {
         0 => Turns::Only(vec![0.0, TAU / 4.0]),
         _ => Turns::Free,
     };
-    Shape { name: format!("P{k}"), outline, holes, turns }
+    Shape { name: format!("P{k}"), outline, holes, turns, priority: 0 }
 }
 
 #[test]
 fn odd_parts_are_placed_or_refused_and_never_overlap() {
     let stock = [
-        Stock { width: 300.0, height: 200.0, margin: 4.0, spacing: 1.5, count: Some(3) },
-        Stock { width: 160.0, height: 90.0, margin: 4.0, spacing: 1.5, count: None },
+        Stock { count: Some(3), ..Stock::new([300.0, 200.0], 4.0, 1.5) },
+        Stock::new([160.0, 90.0], 4.0, 1.5),
     ];
     for seed in 0..40 {
         let mut dice = Dice(seed);
@@ -126,9 +130,9 @@ fn what_fits_no_sheet_is_named_and_the_rest_is_nested_densely() {
             .to_vec(),
         holes: Vec::new(),
         turns: Turns::Free,
+        priority: 0,
     };
-    let stock =
-        [Stock { width: 200.0, height: 100.0, margin: 2.0, spacing: 1.0, count: None }];
+    let stock = [Stock::new([200.0, 100.0], 2.0, 1.0)];
     let mut parts: Vec<Shape> = (0..8).map(|k| board(format!("B{k}"), 90.0)).collect();
     parts.insert(3, board("long".into(), 900.0));
     let effort = Effort { trials: 20, seed: 0 };
@@ -151,11 +155,146 @@ fn a_strip_of_rectangles_is_nearly_full() {
             .to_vec(),
         holes: Vec::new(),
         turns: Turns::Only(vec![0.0, TAU / 4.0]),
+        priority: 0,
     };
     let parts: Vec<Shape> = (0..16).map(board).collect();
-    let sheet =
-        Stock { width: 1.0, height: 101.0, margin: 0.0, spacing: 0.0, count: None };
+    let sheet = Stock::new([1.0, 101.0], 0.0, 0.0);
     let found =
         strip(&parts, &sheet, &Effort { trials: 40, seed: 1 }, &mut ()).expect("a strip");
     assert!((160.0..176.0).contains(&found.length), "{}", found.length);
+}
+
+fn board(name: &str, [width, height]: [f64; 2]) -> Shape {
+    let corners = [[0.0, 0.0], [width, 0.0], [width, height], [0.0, height]];
+    Shape {
+        name: name.into(),
+        outline: corners.map(Point2::from).to_vec(),
+        holes: Vec::new(),
+        turns: Turns::Free,
+        priority: 0,
+    }
+}
+
+/// An L with a hole in its foot.
+fn remnant(margin: f64) -> Stock {
+    let corners = [[0.0, 0.0], [300.0, 0.0], [300.0, 120.0], [120.0, 120.0]];
+    let corners = corners.into_iter().chain([[120.0, 260.0], [0.0, 260.0]]);
+    let outline = corners.map(Point2::from).collect();
+    let mut hole = ring([60.0, 60.0], 25.0, 16);
+    hole.reverse();
+    let remnant = Some(Remnant { outline, holes: vec![hole] });
+    let cost = 0.0;
+    Stock { remnant, cost, count: Some(1), ..Stock::new([300.0, 260.0], margin, 2.0) }
+}
+
+fn on_sheet(x: f64, y: f64) -> Layout {
+    let placements = vec![Placement { shape: 0, angle: 0.0, x, y }];
+    Layout { sheets: vec![NestedSheet { stock: 0, placements }] }
+}
+
+/// Edges of a remnant count as the sheet's: the margin is kept from all of them, and a part
+/// beside it, across it or around its hole is found.
+#[test]
+fn the_check_sees_every_way_to_leave_a_remnant() {
+    let (stock, part) = ([remnant(4.0)], [board("B", [40.0, 20.0])]);
+    let faults = |x, y| check(&on_sheet(x, y), &part, &stock);
+    assert_eq!(faults(150.0, 50.0), []);
+    assert_eq!(faults(4.0, 236.0), []);
+    assert_eq!(faults(76.0, 230.0), []);
+    assert!(matches!(faults(77.0, 230.0)[..], [Fault::InMargin { .. }, ..]));
+    assert!(matches!(faults(200.0, 97.0)[..], [Fault::InMargin { .. }, ..]));
+    assert!(matches!(faults(200.0, 110.0)[..], [Fault::OverEdge { .. }, ..]));
+    assert!(matches!(faults(200.0, 180.0)[..], [Fault::OverEdge { .. }, ..]));
+    assert!(matches!(faults(50.0, 50.0)[..], [Fault::OverEdge { .. }, ..]));
+    assert!(matches!(faults(88.0, 50.0)[..], [Fault::InMargin { .. }, ..]));
+    let large = [board("L", [90.0, 90.0])];
+    let around = check(&on_sheet(15.0, 15.0), &large, &stock);
+    assert!(matches!(around[..], [Fault::OverEdge { .. }, ..]), "{around:?}");
+}
+
+/// Remnants cost nothing and are filled first; what lies on a sheet stays there to the last
+/// digit; what the rest costs is as little as can be.
+#[test]
+fn remnants_locked_parts_and_prices_count() {
+    let mut parts: Vec<Shape> =
+        (0..30).map(|k| board(&format!("B{k}"), [70.0, 30.0])).collect();
+    parts.extend((0..6).map(|k| board(&format!("C{k}"), [25.0, 25.0])));
+    let locked = Placement { shape: 3, angle: 0.5, x: 60.0, y: 40.0 };
+    let stock = [
+        Stock { cost: 9.0, ..Stock::new([400.0, 300.0], 5.0, 2.0) },
+        remnant(4.0),
+        Stock { locked: vec![locked], ..Stock::new([220.0, 160.0], 5.0, 2.0) },
+        Stock { cost: 1.0, ..Stock::new([210.0, 140.0], 5.0, 2.0) },
+    ];
+    for trials in [1, 30] {
+        let effort = Effort { trials, seed: 4 };
+        let found = search(&parts, &stock, &effort, &mut ()).expect("a layout");
+        assert_eq!(
+            (check(&found.layout, &parts, &stock), found.unplaced),
+            (vec![], vec![])
+        );
+        let on = |kind| found.layout.sheets.iter().filter(move |s| s.stock == kind);
+        assert!(on(2).all(|sheet| sheet.placements.contains(&locked)));
+        assert_eq!((on(1).count(), on(2).count()), (1, 1));
+        if trials > 1 {
+            // The two odd sheets and one small one hold them.
+            assert_eq!((on(0).count(), on(3).count()), (0, 1));
+        }
+    }
+    let beside = Stock {
+        locked: vec![Placement { x: 200.0, ..locked }],
+        ..Stock::new([220.0, 160.0], 5.0, 2.0)
+    };
+    let refusal = refused_stock(&parts, &[beside]).expect("it reaches over the edge");
+    assert!(refusal.to_string().contains("B3 reaches into the margin"), "{refusal}");
+}
+
+/// When the stock does not do, the important parts are on it.
+#[test]
+fn parts_of_higher_priority_come_first() {
+    let mut parts: Vec<Shape> =
+        (0..8).map(|k| board(&format!("large{k}"), [90.0, 45.0])).collect();
+    parts.extend((0..6).map(|k| board(&format!("small{k}"), [40.0, 30.0])));
+    parts[8..].iter_mut().for_each(|part| part.priority = 1);
+    let stock = [Stock { count: Some(1), ..Stock::new([200.0, 100.0], 2.0, 1.0) }];
+    for trials in [1, 40] {
+        let effort = Effort { trials, seed: 0 };
+        let found = search(&parts, &stock, &effort, &mut ()).expect("a layout");
+        let said: Vec<String> = found.unplaced.iter().map(ToString::to_string).collect();
+        assert!(said.iter().all(|why| why.contains("large")), "{said:?}");
+        assert!((4..8).contains(&said.len()), "{said:?}");
+    }
+}
+
+/// Has enough after some calls.
+struct Enough(std::cell::Cell<usize>);
+
+impl Watch for Enough {
+    fn progress(&mut self, _: &'static str, _: usize, _: usize) {}
+
+    fn stopped(&self) -> bool {
+        false
+    }
+
+    fn enough(&self) -> bool {
+        self.0.set(self.0.get().saturating_sub(1));
+        self.0.get() == 0
+    }
+}
+
+/// However a search ends, its units of work lead to the same layout again.
+#[test]
+fn a_search_cut_short_is_repeated_by_its_units() {
+    let mut dice = Dice(7);
+    let parts: Vec<Shape> = (0..30).map(|k| part(k, &mut dice)).collect();
+    let parts: Vec<Shape> = parts.into_iter().filter(|p| refused(p).is_none()).collect();
+    let stock = [Stock::new([200.0, 150.0], 3.0, 1.0)];
+    let forever = Effort { trials: u32::MAX, seed: 3 };
+    for calls in [2, 9, 25] {
+        let mut watch = Enough(std::cell::Cell::new(calls));
+        let short = search(&parts, &stock, &forever, &mut watch).expect("a layout");
+        let effort = Effort { trials: short.trials, seed: 3 };
+        let again = search(&parts, &stock, &effort, &mut ()).expect("a layout");
+        assert_eq!(short, again);
+    }
 }

@@ -1,0 +1,177 @@
+//! Other sheets for the same parts: one or two sheets are given up for cheaper ones, or for
+//! none at all.
+
+use crate::nest::Stock;
+use crate::nest::crowd::Pose;
+use crate::nest::search::Search;
+use crate::nest::separate::Budget;
+use std::collections::BTreeMap;
+
+/// Attempts at each choice of sheets.
+const ATTEMPTS: usize = 2;
+/// Share of the material beyond which parts are not tried to fit.
+const FULLEST: f64 = 0.9;
+
+/// Sheets given up, by kind, and those taken instead.
+struct Exchange {
+    given: Vec<usize>,
+    taken: Vec<usize>,
+    /// Share of the material that parts would cover.
+    full: f64,
+    /// What is saved.
+    saved: f64,
+}
+
+impl Search<'_> {
+    /// Goes over to cheaper sheets, the least full ones first, until no exchange succeeds;
+    /// `true` if one did.
+    pub(super) fn exchange(&mut self, budget: &mut Budget) -> bool {
+        let mut tried: BTreeMap<Vec<usize>, usize> = BTreeMap::new();
+        let mut succeeded = false;
+        'next: while !budget.over {
+            for exchange in self.exchanges() {
+                let after = exchange.after(&self.sheets);
+                let attempts = tried.entry(after).or_default();
+                if *attempts < ATTEMPTS {
+                    *attempts += 1;
+                    let rank = *attempts - 1;
+                    succeeded |= self.attempt(&exchange, rank, budget);
+                    continue 'next;
+                }
+            }
+            break;
+        }
+        succeeded
+    }
+
+    /// All exchanges that save something and leave enough material.
+    fn exchanges(&self) -> Vec<Exchange> {
+        let stock = self.yard.stock;
+        let mut used = vec![0; stock.len()];
+        self.sheets.iter().for_each(|&kind| used[kind] += 1);
+        let parts: f64 = (0..self.sheets.len()).map(|room| self.filled(room)).sum();
+        let area: f64 = self.sheets.iter().map(|&kind| stock[kind].area()).sum();
+        let sum = |kinds: &[usize], of: fn(&Stock) -> f64| -> f64 {
+            kinds.iter().map(|&kind| of(&stock[kind])).sum()
+        };
+        let choices = choices(stock.len());
+        let mut all = Vec::new();
+        for given in choices.iter().filter(|given| !given.is_empty()) {
+            let may_go = |kind: usize| {
+                let count = given.iter().filter(|&&k| k == kind).count();
+                used[kind] >= count && stock[kind].locked.is_empty()
+            };
+            if !given.iter().all(|&kind| may_go(kind)) {
+                continue;
+            }
+            for taken in
+                choices.iter().filter(|taken| !taken.iter().any(|k| given.contains(k)))
+            {
+                let is_there = |kind: usize| {
+                    let count = taken.iter().filter(|&&k| k == kind).count();
+                    used[kind] + count <= stock[kind].most()
+                };
+                let saved = sum(given, |s| s.cost) - sum(taken, |s| s.cost);
+                let left = area - sum(given, Stock::area) + sum(taken, Stock::area);
+                let full = parts / left.max(f64::MIN_POSITIVE);
+                let better = saved > 0.0 || (saved >= 0.0 && taken.len() < given.len());
+                if better && full < FULLEST && taken.iter().all(|&kind| is_there(kind)) {
+                    let (given, taken) = (given.clone(), taken.clone());
+                    all.push(Exchange { given, taken, full, saved });
+                }
+            }
+        }
+        let easiest = |a: &Exchange, b: &Exchange| {
+            a.full.total_cmp(&b.full).then(b.saved.total_cmp(&a.saved))
+        };
+        all.sort_by(easiest);
+        all
+    }
+
+    /// Gives up sheets, the emptiest of their kind or, by rank, the next; their parts go
+    /// where they overlap least, and all are separated. If that fails, everything is as
+    /// before.
+    fn attempt(&mut self, exchange: &Exchange, rank: usize, budget: &mut Budget) -> bool {
+        let mut order: Vec<usize> = (0..self.sheets.len()).collect();
+        let filled: Vec<f64> = order.iter().map(|&room| self.filled(room)).collect();
+        order.sort_by(|&a, &b| filled[a].total_cmp(&filled[b]).then(b.cmp(&a)));
+        let mut gone = vec![false; self.sheets.len()];
+        for &kind in &exchange.given {
+            let of_kind = order.iter().filter(|&&room| self.sheets[room] == kind);
+            let left: Vec<usize> =
+                of_kind.filter(|&&room| !gone[room]).copied().collect();
+            if let Some(&room) = left.get(rank.min(left.len().saturating_sub(1))) {
+                gone[room] = true;
+            }
+        }
+        let kept = |rooms: &[usize]| -> Vec<usize> {
+            rooms.iter().zip(&gone).filter(|(_, gone)| !**gone).map(|(k, _)| *k).collect()
+        };
+        let mut sheets = kept(&self.sheets);
+        let rooms = kept(&(0..self.sheets.len()).collect::<Vec<_>>());
+        sheets.extend(&exchange.taken);
+        self.with_sheets(sheets, &rooms, budget)
+    }
+
+    /// Goes over to other sheets; `rooms` are the old rooms that the first of them were.
+    fn with_sheets(
+        &mut self,
+        sheets: Vec<usize>,
+        rooms: &[usize],
+        budget: &mut Budget,
+    ) -> bool {
+        let mut next = self.yard.crowd(&sheets, self.crowd.random.clone());
+        next.work = self.crowd.work;
+        let mut homeless = Vec::new();
+        for part in 0..self.priorities.len() {
+            let member = &self.crowd.members[part];
+            if member.fixed || member.pose.is_nowhere() {
+                continue;
+            }
+            let room = self.crowd.room_at(member.pose.x);
+            match rooms.iter().position(|&old| old == room) {
+                Some(new) => {
+                    let x =
+                        member.pose.x + next.rooms[new][0] - self.crowd.rooms[room][0];
+                    next.put(part, Pose { x, ..member.pose });
+                }
+                None => homeless.push(part),
+            }
+        }
+        let size = |part: usize| self.yard.shapes[self.crowd.members[part].shape].size;
+        homeless.sort_by(|&a, &b| size(b).total_cmp(&size(a)).then(a.cmp(&b)));
+        let placed = homeless.into_iter().all(|part| next.drop_in(part));
+        if placed && next.settle(budget) {
+            self.crowd = next;
+            self.sheets = sheets;
+            return true;
+        }
+        (self.crowd.random, self.crowd.work) = (next.random, next.work);
+        false
+    }
+}
+
+impl Exchange {
+    /// The kinds of sheet after it, in order.
+    fn after(&self, sheets: &[usize]) -> Vec<usize> {
+        let mut after = sheets.to_vec();
+        for kind in &self.given {
+            if let Some(at) = after.iter().position(|k| k == kind) {
+                after.swap_remove(at);
+            }
+        }
+        after.extend(&self.taken);
+        after.sort_unstable();
+        after
+    }
+}
+
+/// No kind, one, or two of them.
+fn choices(kinds: usize) -> Vec<Vec<usize>> {
+    let mut all = vec![Vec::new()];
+    for a in 0..kinds {
+        all.push(vec![a]);
+        all.extend((a..kinds).map(|b| vec![a, b]));
+    }
+    all
+}
