@@ -108,12 +108,18 @@ fn size(text: &str) -> Result<[f64; 2], String> {
     }
 }
 
-/// The first Ctrl-C ends the search, which then gives the best so far.
-struct UntilStopped(Terminal);
+/// The first Ctrl-C ends the search, which then gives the best so far; so does the last of
+/// the units that were asked for.
+struct UntilStopped {
+    terminal: Terminal,
+    units: Option<usize>,
+    done: usize,
+}
 
 impl Watch for UntilStopped {
     fn progress(&mut self, stage: &'static str, done: usize, total: usize) {
-        self.0.progress(stage, done, total);
+        self.done = done;
+        self.terminal.progress(stage, done, self.units.unwrap_or(total));
     }
 
     fn stopped(&self) -> bool {
@@ -121,7 +127,8 @@ impl Watch for UntilStopped {
     }
 
     fn enough(&self) -> bool {
-        self.0.enough() || self.0.stopped()
+        let is_full = self.units.is_some_and(|units| self.done >= units);
+        is_full || self.terminal.enough() || self.terminal.stopped()
     }
 }
 
@@ -136,18 +143,20 @@ pub(super) fn run(args: &NestArgs, voice: Voice) -> Result<End, Failure> {
     }
     let (mut order, notes) = order(args, &name)?;
     set_up(&mut order, args)?;
-    let mut watch = UntilStopped(Terminal::new(voice, args.time_limit));
+    let terminal = Terminal::new(voice, args.time_limit);
+    let units = args.work.map(|units| units as usize);
+    let mut watch = UntilStopped { terminal, units, done: 0 };
     let nested = nested(&mut order, &effort(args), &mut watch);
-    watch.0.finish();
+    watch.terminal.finish();
     let nested = nested.map_err(|error| Failure::Other(Box::new(error)))?;
     let dir = args.output.clone().unwrap_or_else(|| Path::new("out").join(&order.name));
     deliver(&order, &nested, args, &dir)?;
     voice.findings(
         &notes.into_iter().chain(left_over(&nested.unplaced)).collect::<Vec<_>>(),
     );
-    voice.say(&summary(&nested, args, &dir, watch.0.stopped()));
+    voice.say(&summary(&nested, args, &dir, watch.terminal.stopped()));
     // What was found so far is written all the same.
-    Ok(if watch.0.stopped() { End::Interrupted } else { End::Done })
+    Ok(if watch.terminal.stopped() { End::Interrupted } else { End::Done })
 }
 
 /// The parts to nest, and what the drawing they come from did not say.
@@ -205,9 +214,11 @@ fn effort(args: &NestArgs) -> Effort {
         EffortLevel::Normal => 128,
         EffortLevel::Thorough => 2048,
     };
-    let trials = match args.time_limit {
-        Some(_) => u32::MAX,
-        None => args.work.unwrap_or(by_level),
+    // Units that are asked for are counted by the watch: nothing else may end the search.
+    let trials = match (args.time_limit, args.work) {
+        (None, None) => by_level,
+        (None, Some(0 | 1)) => 1,
+        _ => u32::MAX,
     };
     Effort { trials, seed: args.seed }
 }

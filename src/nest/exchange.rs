@@ -2,7 +2,7 @@
 //! none at all.
 
 use crate::nest::Stock;
-use crate::nest::crowd::Pose;
+use crate::nest::crowd::{Crowd, Member, Pose};
 use crate::nest::search::Search;
 use crate::nest::separate::Budget;
 use std::collections::BTreeMap;
@@ -11,6 +11,10 @@ use std::collections::BTreeMap;
 const ATTEMPTS: usize = 2;
 /// Share of the material beyond which parts are not tried to fit.
 const FULLEST: f64 = 0.9;
+
+/// Share of the material up to which any choice is as easy as another: what saves most goes
+/// first.
+const EASY: f64 = 0.6;
 
 /// Sheets given up, by kind, and those taken instead.
 struct Exchange {
@@ -82,7 +86,10 @@ impl Search<'_> {
             }
         }
         let easiest = |a: &Exchange, b: &Exchange| {
-            a.full.total_cmp(&b.full).then(b.saved.total_cmp(&a.saved))
+            let full = |exchange: &Exchange| exchange.full.max(EASY);
+            let for_nothing = |exchange: &Exchange| exchange.saved <= 0.0;
+            let order = for_nothing(a).cmp(&for_nothing(b));
+            order.then(full(a).total_cmp(&full(b))).then(b.saved.total_cmp(&a.saved))
         };
         all.sort_by(easiest);
         all
@@ -120,7 +127,25 @@ impl Search<'_> {
         rooms: &[usize],
         budget: &mut Budget,
     ) -> bool {
-        let mut next = self.yard.crowd(&sheets, self.crowd.random.clone());
+        let (mut next, mut homeless) = self.moved(&sheets, rooms);
+        let size = |part: usize| self.yard.shapes[self.crowd.members[part].shape].size;
+        homeless.sort_by(|&a, &b| size(b).total_cmp(&size(a)).then(a.cmp(&b)));
+        let placed = homeless.into_iter().all(|part| next.drop_in(part));
+        if placed && next.separate(budget) {
+            self.crowd = next;
+            self.sheets = sheets;
+            return true;
+        }
+        (self.crowd.random, self.crowd.work) = (next.random, next.work);
+        false
+    }
+}
+
+impl<'a> Search<'a> {
+    /// A crowd on other sheets, with the parts of those rooms that are kept, and the parts
+    /// that lose their room.
+    fn moved(&self, sheets: &[usize], rooms: &[usize]) -> (Crowd<'a>, Vec<usize>) {
+        let mut next = self.yard.crowd(sheets, self.crowd.random.clone());
         next.work = self.crowd.work;
         let mut homeless = Vec::new();
         for part in 0..self.priorities.len() {
@@ -131,23 +156,51 @@ impl Search<'_> {
             let room = self.crowd.room_at(member.pose.x);
             match rooms.iter().position(|&old| old == room) {
                 Some(new) => {
-                    let x =
-                        member.pose.x + next.rooms[new][0] - self.crowd.rooms[room][0];
-                    next.put(part, Pose { x, ..member.pose });
+                    let by = next.rooms[new][0] - self.crowd.rooms[room][0];
+                    next.put(part, Pose { x: member.pose.x + by, ..member.pose });
                 }
                 None => homeless.push(part),
             }
         }
-        let size = |part: usize| self.yard.shapes[self.crowd.members[part].shape].size;
-        homeless.sort_by(|&a, &b| size(b).total_cmp(&size(a)).then(a.cmp(&b)));
-        let placed = homeless.into_iter().all(|part| next.drop_in(part));
-        if placed && next.settle(budget) {
-            self.crowd = next;
-            self.sheets = sheets;
+        (next, homeless)
+    }
+
+    /// Moves parts of the emptiest plain sheet to the others, one after another, large ones
+    /// first; the sheet goes if it becomes empty. `true` if a part was moved.
+    pub(super) fn drain(&mut self, budget: &mut Budget) -> bool {
+        let Some(room) = self.emptiest().filter(|_| self.sheets.len() > 1) else {
+            return false;
+        };
+        let rooms: Vec<usize> = (0..self.sheets.len()).filter(|&k| k != room).collect();
+        let sheets: Vec<usize> = rooms.iter().map(|&k| self.sheets[k]).collect();
+        let (mut next, mut left) = self.moved(&sheets, &rooms);
+        left.sort_by(|&a, &b| self.area(b).total_cmp(&self.area(a)).then(a.cmp(&b)));
+        let material: f64 = sheets.iter().map(|&k| self.yard.stock[k].area()).sum();
+        let mut filled: f64 = rooms.iter().map(|&k| self.filled(k)).sum();
+        let count = left.len();
+        left.retain(|&part| {
+            let full = filled + self.area(part) > FULLEST * material;
+            let stays = full || budget.over || !next.squeeze_in(part, budget);
+            filled += if stays { 0.0 } else { self.area(part) };
+            stays
+        });
+        (self.crowd.random, self.crowd.work) = (next.random.clone(), next.work);
+        if left.len() == count {
+            return false;
+        }
+        if left.is_empty() {
+            (self.crowd, self.sheets) = (next, sheets);
             return true;
         }
-        (self.crowd.random, self.crowd.work) = (next.random, next.work);
-        false
+        for part in (0..self.priorities.len()).filter(|part| !left.contains(part)) {
+            let Member { pose, fixed, .. } = next.members[part];
+            if !fixed && !pose.is_nowhere() {
+                let new = next.room_at(pose.x);
+                let by = self.crowd.rooms[rooms[new]][0] - next.rooms[new][0];
+                self.crowd.put(part, Pose { x: pose.x + by, ..pose });
+            }
+        }
+        true
     }
 }
 

@@ -98,7 +98,8 @@ pub struct Layout {
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Effort {
     /// Units of work, 20,000 evaluations each; 1 is the first
-    /// layout without any search; `u32::MAX` until the watch has enough.
+    /// layout without any search; `u32::MAX` until the watch has enough. A search that is
+    /// given a number ends before it when nothing gets better any more.
     pub trials: u32,
     /// Start of the random numbers.
     pub seed: u64,
@@ -234,6 +235,8 @@ fn budget<'a>(effort: &Effort, watch: &'a mut dyn Watch) -> Budget<'a> {
     Budget { units, done: 0, watch, over: false }
 }
 
+/// The units that lead here again: one more than were filled if the search ended by itself.
 fn trials(budget: &Budget) -> u32 {
-    u32::try_from(budget.done).unwrap_or(u32::MAX)
+    let units = budget.done + u64::from(!budget.over);
+    u32::try_from(units).unwrap_or(u32::MAX)
 }

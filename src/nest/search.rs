@@ -52,24 +52,25 @@ impl Search<'_> {
         while !budget.over {
             let work = self.crowd.work;
             let exchanged = self.exchange(budget);
+            let drained = self.drain(budget);
             let pressed = self.press(budget);
             // Without an evaluation nothing can come of another round.
-            if self.crowd.work == work || !(exchanged || pressed || endless) {
+            if self.crowd.work == work || !(exchanged || drained || pressed || endless) {
                 break;
             }
         }
     }
 
+    /// The emptiest sheet that is a bare rectangle.
+    pub(super) fn emptiest(&self) -> Option<usize> {
+        let plain = |room: &usize| self.yard.stock[self.sheets[*room]].is_plain();
+        let plain = (0..self.sheets.len()).filter(plain).map(|k| (self.filled(k), k));
+        plain.min_by(|a, b| a.0.total_cmp(&b.0).then(b.1.cmp(&a.1))).map(|(_, room)| room)
+    }
+
     /// Presses the emptiest plain sheet together; `true` if more of it is free now.
     fn press(&mut self, budget: &mut Budget) -> bool {
-        let mut plain: Vec<usize> = (0..self.sheets.len()).collect();
-        plain.retain(|&room| self.yard.stock[self.sheets[room]].is_plain());
-        let filled = |room: &usize| self.filled(*room);
-        plain.sort_by(|a, b| filled(a).total_cmp(&filled(b)).then(b.cmp(a)));
-        let Some(&room) = plain.first() else { return false };
-        if budget.over {
-            return false;
-        }
+        let Some(room) = self.emptiest().filter(|_| !budget.over) else { return false };
         let (before, whole) = (self.crowd.used(room), self.crowd.rooms[room]);
         self.crowd.compress(room, budget);
         let after = self.crowd.used(room);
@@ -84,7 +85,7 @@ impl Search<'_> {
         inside.map(|m| self.yard.shapes[m.shape].area).sum()
     }
 
-    fn area(&self, part: usize) -> f64 {
+    pub(super) fn area(&self, part: usize) -> f64 {
         self.yard.shapes[self.crowd.members[part].shape].area
     }
 
@@ -144,7 +145,7 @@ impl Search<'_> {
         }
         let before = self.crowd.poses();
         others.iter().for_each(|&other| self.crowd.take_out(other));
-        let done = self.crowd.drop_in(part) && self.crowd.separate(budget);
+        let done = self.crowd.squeeze_in(part, budget);
         if !done {
             self.crowd.restore(&before);
         }
@@ -153,6 +154,16 @@ impl Search<'_> {
 }
 
 impl Crowd<'_> {
+    /// Lets one more part in, where all can be separated again.
+    pub(super) fn squeeze_in(&mut self, part: usize, budget: &mut Budget) -> bool {
+        let before = self.poses();
+        let done = self.drop_in(part) && self.separate(budget);
+        if !done {
+            self.restore(&before);
+        }
+        done
+    }
+
     /// Puts a part where it overlaps least of some random places.
     pub(super) fn drop_in(&mut self, part: usize) -> bool {
         let mut scratch = Turned::default();

@@ -33,7 +33,9 @@ impl Budget<'_> {
         if done > self.done && !self.over {
             self.done = done;
             self.watch.progress("nest", done as usize, self.units.min(1 << 40) as usize);
-            self.over = done >= self.units || self.watch.enough() || self.watch.stopped();
+            // One unit means no search, so what was searched has two at least.
+            let stops = done > 1 && (self.watch.enough() || self.watch.stopped());
+            self.over = done >= self.units || stops;
         }
         self.over
     }

@@ -1,4 +1,4 @@
-"""A layout.json judged by shapely: overlap, spacing, margin, parts in holes.
+"""A layout.json judged by shapely: overlap, spacing, margin, parts in holes, edges of remnants, free space.
 
     python nest_layout.py out/parts/layout.json ...
 
@@ -39,10 +39,20 @@ def faults(layout):
             seen.add(name)
         shapes = [placed(parts[p["part"]], p) for p in sheet["placements"]]
         margin, spacing = sheet["margin"], layout["spacing"]
-        inner = box(margin, margin, sheet["width"] - margin, sheet["height"] - margin)
+        edge = box(0, 0, sheet["width"], sheet["height"])
+        if "outline" in sheet:
+            edge = Polygon(sheet["outline"], sheet["holes"])
         for name, shape in zip(names, shapes):
-            if not inner.buffer(SLACK).covers(shape):
-                yield f"{sheet['id']}: {name} reaches into the margin"
+            off = edge.boundary.distance(shape)
+            if not edge.covers(shape) or off < margin - SLACK:
+                yield f"{sheet['id']}: {name} is {off} mm from the edge"
+        free = [Polygon(r["outline"], r["holes"]) for r in sheet["free"]]
+        for region, said in zip(free, sheet["free"]):
+            covered = sum(region.intersection(shape).area for shape in shapes)
+            if not region.is_valid or covered > 1e-2 or region.difference(edge).area > 1e-2:
+                yield f"{sheet['id']}: free space that is not: {covered} mm2 of parts"
+            if abs(region.area - said["area"]) > 1e-2:
+                yield f"{sheet['id']}: free space of {region.area}, not {said['area']}"
         tree, least = STRtree(shapes), math.inf
         for i, shape in enumerate(shapes):
             for j in tree.query(shape.buffer(spacing + 1)):

@@ -11,6 +11,7 @@ from ezdxf import units
 from shapely.geometry import LineString, Polygon
 
 INCH = 25.4
+FIXTURES = Path(__file__).resolve().parent.parent.parent / "fixtures"
 
 
 def drawing(path: Path) -> None:
@@ -70,8 +71,60 @@ def near(found: list[float], wanted: list[float], slack: float) -> bool:
     return len(found) == len(wanted) and all(math.isclose(a, b, rel_tol=slack) for a, b in zip(found, sorted(wanted)))
 
 
+def moved(ring: list[list[float]], by: list[float]) -> list[list[float]]:
+    return [[x - by[0], y - by[1]] for x, y in ring]
+
+
+def stock_kept(given: dict, layout: dict) -> list[str]:
+    """Remnants come back in their shape, locked parts where they were, and no part is lost."""
+    faults = []
+    edges = [Polygon(sheet["outline"], sheet["holes"]) for sheet in layout["sheets"] if "outline" in sheet]
+    placed = [placement for sheet in layout["sheets"] for placement in sheet["placements"]]
+    for sheet in given["sheets"]:
+        if "outline" in sheet:
+            low = [min(point[axis] for point in sheet["outline"]) for axis in (0, 1)]
+            wanted = Polygon(moved(sheet["outline"], low), [moved(hole, low) for hole in sheet["holes"]])
+            if not any(edge.symmetric_difference(wanted).area < 1e-2 for edge in edges):
+                faults.append("the remnant was not used")
+        for locked in sheet.get("placements", []):
+            if {**locked, "locked": True} not in placed:
+                faults.append(f"{locked} was moved")
+    count = sum(part.get("quantity", 1) for part in given["parts"])
+    if len(placed) != count:
+        faults.append(f"{len(placed)} of {count} parts are placed")
+    return faults
+
+
+def reused(runner, layouts) -> None:
+    """Remnants and locked parts in; the free space of that layout as remnants again."""
+    given = json.loads((FIXTURES / "remnants.json").read_text())
+    ran = runner.finwright("nest", str(FIXTURES / "remnants.json"), "-o", "remnants", "-q")
+    if ran.returncode != 0:
+        runner.note("nest remnants.json", False, ran.stderr.strip()[-300:])
+        return
+    layout = json.loads((runner.scratch / "remnants" / "layout.json").read_text())
+    faults = list(layouts(layout)) + stock_kept(given, layout)
+    runner.note("nest remnants.json", not faults, "; ".join(faults[:3]))
+    free = [region for sheet in layout["sheets"] for region in sheet["free"]]
+    disc = next(part for part in given["parts"] if part["id"] == "disc")
+    small = {**disc, "id": "small", "quantity": 6, "outline": [[x / 3, y / 3] for x, y in disc["outline"]]}
+    again = {"format": "finwright-parts", "version": 1, "sheets": [{**region, "margin": 3, "count": 1} for region in free], "parts": [small]}
+    path = runner.scratch / "again.json"
+    path.write_text(json.dumps(again))
+    ran = runner.finwright("nest", str(path), "-o", "again", "-q")
+    if ran.returncode != 0:
+        runner.note("nest free space", False, ran.stderr.strip()[-300:])
+        return
+    layout = json.loads((runner.scratch / "again" / "layout.json").read_text())
+    faults = list(layouts(layout))
+    if not any(sheet["placements"] for sheet in layout["sheets"]):
+        faults.append("nothing lies on the free space")
+    runner.note("nest free space", not faults, "; ".join(faults[:3]))
+
+
 def checked(runner, layouts) -> None:
     """Runs the cases; `layouts` judges a layout.json by shapely."""
+    reused(runner, layouts)
     dxf, drawn = runner.scratch / "parts.dxf", runner.scratch / "parts.svg"
     drawing(dxf)
     svg(drawn)
@@ -84,7 +137,7 @@ def checked(runner, layouts) -> None:
         (str(drawn), ["--sheet", "200x100"], ([rounded, 100.0], 1, [])),
     ]
     for source, words, wanted in cases:
-        source = source if wanted else str(Path(__file__).resolve().parent.parent.parent / "fixtures" / source)
+        source = source if wanted else str(FIXTURES / source)
         folder = f"nest-{Path(source).suffix[1:]}"
         ran = runner.finwright("nest", source, *words, "-o", folder, "-q")
         if ran.returncode != 0:

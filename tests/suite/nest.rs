@@ -9,6 +9,7 @@ use finwright::nest::{
 use finwright::watch::Watch;
 use std::collections::BTreeSet;
 use std::f64::consts::TAU;
+use std::path::Path;
 
 /// Numbers in 0 to 1, the same on every run (SplitMix64).
 struct Dice(u64);
@@ -266,19 +267,20 @@ fn parts_of_higher_priority_come_first() {
     }
 }
 
-/// Has enough after some calls.
-struct Enough(std::cell::Cell<usize>);
+/// Has enough after some units of work.
+struct Units(usize, usize);
 
-impl Watch for Enough {
-    fn progress(&mut self, _: &'static str, _: usize, _: usize) {}
+impl Watch for Units {
+    fn progress(&mut self, _: &'static str, done: usize, _: usize) {
+        self.1 = done;
+    }
 
     fn stopped(&self) -> bool {
         false
     }
 
     fn enough(&self) -> bool {
-        self.0.set(self.0.get().saturating_sub(1));
-        self.0.get() == 0
+        self.1 >= self.0
     }
 }
 
@@ -290,11 +292,75 @@ fn a_search_cut_short_is_repeated_by_its_units() {
     let parts: Vec<Shape> = parts.into_iter().filter(|p| refused(p).is_none()).collect();
     let stock = [Stock::new([200.0, 150.0], 3.0, 1.0)];
     let forever = Effort { trials: u32::MAX, seed: 3 };
-    for calls in [2, 9, 25] {
-        let mut watch = Enough(std::cell::Cell::new(calls));
-        let short = search(&parts, &stock, &forever, &mut watch).expect("a layout");
-        let effort = Effort { trials: short.trials, seed: 3 };
-        let again = search(&parts, &stock, &effort, &mut ()).expect("a layout");
-        assert_eq!(short, again);
+    let cut =
+        |units| search(&parts, &stock, &forever, &mut Units(units, 0)).expect("it is");
+    for units in [2, 9, 40] {
+        let short = cut(units);
+        // It may end by itself, when nothing is left to try.
+        assert!((2..=units).contains(&(short.trials as usize)));
+        assert_eq!(short, cut(short.trials as usize));
+        // What is found later is another layout or the same, and no worse.
+        let sheets = |units| cut(units).layout.sheets.len();
+        assert!(sheets(60) <= sheets(units));
     }
+}
+
+fn nested(place: &Path, file: &str, words: &[&str]) -> std::process::Command {
+    let mut command = std::process::Command::new(env!("CARGO_BIN_EXE_finwright"));
+    let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("fixtures").join(file);
+    command.arg("nest").arg(file).args(words).current_dir(place);
+    command
+}
+
+fn layout_json(place: &Path, folder: &str) -> String {
+    let path = place.join(folder).join("layout.json");
+    std::fs::read_to_string(path).expect("it was written")
+}
+
+/// The example of docs/nesting.md: a run by the clock says which `--work` repeats it, to the
+/// byte; `--check` finds nothing in it, and something once a part is moved.
+#[test]
+fn the_printed_units_repeat_a_run_by_the_clock() {
+    let place = tempfile::tempdir().expect("there is room");
+    let run = |words: &[&str]| {
+        nested(place.path(), "remnants.json", words).output().expect("it was built")
+    };
+    let timed = run(&["--time-limit", "1", "--seed", "5", "-o", "a"]);
+    assert_eq!(timed.status.code(), Some(0));
+    let said = String::from_utf8(timed.stderr).expect("text");
+    let units = said.split("--work ").nth(1).and_then(|rest| rest.split(' ').next());
+    let units = units.expect("the units are printed");
+    let again = run(&["--work", units, "--seed", "5", "-o", "b"]);
+    assert_eq!(again.status.code(), Some(0));
+    let layout = layout_json(place.path(), "a");
+    assert_eq!(layout, layout_json(place.path(), "b"));
+    let check = |text: &str| {
+        let path = place.path().join("moved.json");
+        std::fs::write(&path, text).expect("it can be written");
+        let mut command = std::process::Command::new(env!("CARGO_BIN_EXE_finwright"));
+        command.args(["nest", "--check"]).arg(&path).status().expect("it runs").code()
+    };
+    assert_eq!(check(&layout), Some(0));
+    let mut moved: serde_json::Value = serde_json::from_str(&layout).expect("JSON");
+    let sheets = moved["sheets"].as_array_mut().expect("a list");
+    let remnant = sheets.iter_mut().find(|sheet| !sheet["outline"].is_null());
+    let part = &mut remnant.expect("the remnant is used")["placements"][0];
+    (part["x"], part["y"]) = (300.0.into(), 250.0.into());
+    assert_eq!(check(&moved.to_string()), Some(3));
+}
+
+/// Ctrl-C: the best so far is written, and the exit code tells.
+#[cfg(unix)]
+#[test]
+fn an_interrupted_nest_writes_the_best_so_far() {
+    let place = tempfile::tempdir().expect("there is room");
+    let words = ["--time-limit", "100", "-q", "-o", "a"];
+    let mut command = nested(place.path(), "parts.json", &words);
+    let mut child = command.spawn().expect("it was built");
+    std::thread::sleep(std::time::Duration::from_millis(1500));
+    let id = child.id().to_string();
+    let kill = std::process::Command::new("kill").args(["-INT", &id]).status();
+    assert!(kill.expect("kill is there").success());
+    assert_eq!(child.wait().expect("it ends").code(), Some(4));
+    assert!(layout_json(place.path(), "a").contains("finwright-layout"));
 }
