@@ -167,3 +167,6 @@ pub const NEST_SIMPLIFY_MM: f64 = 0.02;
 
 /// ... and as a share of the part's size.
 pub const NEST_SIMPLIFY: f64 = 2e-4;
+
+/// Share by which a loss is followed beyond its bound, for rounding.
+pub const NEST_BOUND: f64 = 1e-9;

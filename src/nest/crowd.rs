@@ -9,7 +9,7 @@
 use crate::nest::prepared::Prepared;
 use crate::nest::random::Random;
 use crate::nest::turned::{Bounds, Turned, meet};
-use crate::tolerance::NEST_SLACK_MM;
+use crate::tolerance::{NEST_BOUND, NEST_SLACK_MM};
 
 /// Where a part's middle is, and its turn.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -212,7 +212,7 @@ impl<'a> Crowd<'a> {
                 continue;
             }
             let weight = self.weights[row + other];
-            let enough = (bound - cost) / weight * (1.0 + 1e-9);
+            let enough = (bound - cost) / weight * (1.0 + NEST_BOUND);
             cost += weight * self.loss_at(part, other, (turned, pose), enough);
             if cost >= bound {
                 return f64::INFINITY;
