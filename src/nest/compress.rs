@@ -106,9 +106,9 @@ impl Crowd<'_> {
 
     /// Narrows a room as far as the budget goes; ends with the narrowest layout found
     /// without overlap. The layout must have none to begin with.
-    pub(super) fn compress(&mut self, room: usize, budget: &mut Budget) {
+    /// It goes on for ever if told to, else until nothing is gained.
+    pub(super) fn compress(&mut self, room: usize, endless: bool, budget: &mut Budget) {
         let mut best = (self.used(room), self.poses());
-        let endless = budget.units == u64::MAX;
         loop {
             let work = self.work;
             let explored = self.explore(room, &mut best, budget);

@@ -16,6 +16,9 @@ const FULLEST: f64 = 0.9;
 /// first.
 const EASY: f64 = 0.6;
 
+/// Parts that cannot be moved before a sheet is left as it is.
+const FAILURES: usize = 3;
+
 /// Sheets given up, by kind, and those taken instead.
 struct Exchange {
     given: Vec<usize>,
@@ -178,9 +181,12 @@ impl<'a> Search<'a> {
         let material: f64 = sheets.iter().map(|&k| self.yard.stock[k].area()).sum();
         let mut filled: f64 = rooms.iter().map(|&k| self.filled(k)).sum();
         let count = left.len();
+        let mut failed = 0;
         left.retain(|&part| {
             let full = filled + self.area(part) > FULLEST * material;
-            let stays = full || budget.over || !next.squeeze_in(part, budget);
+            let over = full || budget.over || failed == FAILURES;
+            let stays = over || !next.squeeze_in(part, budget);
+            failed += usize::from(stays && !over);
             filled += if stays { 0.0 } else { self.area(part) };
             stays
         });

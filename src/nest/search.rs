@@ -52,8 +52,9 @@ impl Search<'_> {
         while !budget.over {
             let work = self.crowd.work;
             let exchanged = self.exchange(budget);
+            let mut pressed = self.press(budget);
             let drained = self.drain(budget);
-            let pressed = self.press(budget);
+            pressed |= drained && self.press(budget);
             // Without an evaluation nothing can come of another round.
             if self.crowd.work == work || !(exchanged || drained || pressed || endless) {
                 break;
@@ -72,7 +73,7 @@ impl Search<'_> {
     fn press(&mut self, budget: &mut Budget) -> bool {
         let Some(room) = self.emptiest().filter(|_| !budget.over) else { return false };
         let (before, whole) = (self.crowd.used(room), self.crowd.rooms[room]);
-        self.crowd.compress(room, budget);
+        self.crowd.compress(room, false, budget);
         let after = self.crowd.used(room);
         self.crowd.rooms[room] = whole;
         after < before
@@ -201,7 +202,7 @@ pub(super) fn strip(
         return None;
     }
     if crowd.total() <= 0.0 || crowd.separate(budget) {
-        crowd.compress(0, budget);
+        crowd.compress(0, budget.units == u64::MAX, budget);
     }
     let layout = yard.layout(&crowd, &[0]);
     let placements = layout.sheets.into_iter().flat_map(|sheet| sheet.placements);
