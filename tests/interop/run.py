@@ -48,10 +48,12 @@ PLANARISED: dict[str, list[str]] = {
 }
 PLANAR_ENOUGH = 1e-4
 
-# Single fins and connectors. Eight plates of 3 mm are more than the vault's axes hold.
+# Single fins and connectors; all take a quarter of an hour, so that a run has the first two unless asked. Eight plates of 3 mm are more than the vault's axes hold.
 CONNECTED: dict[str, list[str]] = {
-    **{f"hub {name}": [name, "--joint", "hub"] for name in ("three", "five", "vault", "dome")},
-    **{f"hinge {name}": [name, "--joint", "hinge"] for name in ("three", "five", "dome")},
+    "hub five": ["five", "--joint", "hub"],
+    "hinge three": ["three", "--joint", "hinge"],
+    **{f"hub {name}": [name, "--joint", "hub"] for name in ("three", "vault", "dome")},
+    **{f"hinge {name}": [name, "--joint", "hinge"] for name in ("five", "dome")},
     "hinge vault": ["vault", "--joint", "hinge", "-t", "pmma-cast-2"],
 }
 
@@ -149,7 +151,7 @@ class Runner:
         self.note(f"{case.name}: same bytes again", not report.misses())
 
 
-def cases(runner: Runner, meshes: Path | None) -> list[Case]:
+def cases(runner: Runner, meshes: Path | None, connectors: bool) -> list[Case]:
     found = [Case("default", [], [])]
     listed = runner.finwright("example", "list")
     names = [line.split()[0] for line in listed.stdout.splitlines() if line.strip()]
@@ -165,8 +167,10 @@ def cases(runner: Runner, meshes: Path | None) -> list[Case]:
         found.append(Case(f"mesh {Path(name).stem}", [str((meshes / name).resolve())], arguments))
     for name, arguments in PLANARISED.items() if meshes else ():
         found.append(Case(f"planarised {Path(name).stem}", [str((meshes / name).resolve())], arguments))
-    found += [Case(name, words[:1], words[1:]) for name, words in CONNECTED.items()]
-    for name, arguments in CONNECTED_MESHES.items() if meshes else ():
+    chosen = list(CONNECTED.items())[: None if connectors else 2]
+    quick = [] if runner.extra else ["--effort", "quick"]
+    found += [Case(name, words[:1], [*words[1:], *quick]) for name, words in chosen]
+    for name, arguments in CONNECTED_MESHES.items() if meshes and connectors else ():
         found.append(Case(f"hub mesh {Path(name).stem}", [str((meshes / name).resolve())], arguments))
     return found
 
@@ -183,6 +187,7 @@ def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("binary", type=Path)
     parser.add_argument("--meshes", type=Path, metavar="DIR", help="also the outside meshes found there")
+    parser.add_argument("--connectors", action="store_true", help="all single fins and connectors: a quarter of an hour")
     parser.add_argument("--only", default="", metavar="WORD", help="only cases whose name has WORD")
     parser.add_argument("--effort", choices=("quick", "normal", "thorough"), help="of the nesting")
     options = parser.parse_args()
@@ -196,7 +201,7 @@ def main() -> int:
         for name in PLANARISED if options.meshes else ():
             if options.only in f"planarise {name}":
                 runner.planarise((options.meshes / name).resolve())
-        for case in cases(runner, options.meshes):
+        for case in cases(runner, options.meshes, options.connectors):
             if options.only in case.name:
                 runner.run(case, again=case.name == "default")
     for name in runner.failed:
