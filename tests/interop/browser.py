@@ -28,9 +28,10 @@ USE = """(async () => {
   told.draws = first.length > 2 * empty().length;
   told.parts = document.querySelectorAll(".sheet g.part").length;
   if (told.parts) {
-    // The middle of a fin that is not hidden, clicked as a mouse would.
+    // The middle of a fin that is not hidden, clicked as a mouse would: whole pixels, so its neighbours must be of the same part.
     const middles = fw.corners.map((c) => c.map(fw.project)).map((c) => [(c[0][0] + c[3][0]) / 2, (c[0][1] + c[3][1]) / 2]);
-    const hit = middles.find(([x, y]) => fw.pick(x, y) >= 0), wanted = fw.pick(...hit);
+    const alone = ([x, y]) => fw.pick(x, y) >= 0 && [[1, 1], [1, -1], [-1, 1], [-1, -1]].every(([a, b]) => fw.pick(x + a, y + b) === fw.pick(x, y));
+    const hit = middles.find(alone), wanted = fw.pick(...hit);
     canvas.scrollIntoView();
     const box = canvas.getBoundingClientRect();
     canvas.setPointerCapture = () => {};

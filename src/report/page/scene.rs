@@ -4,12 +4,12 @@ use crate::geometry::{Point3, Vector3};
 use crate::job::Job;
 use crate::joint::Joint;
 use crate::parts::{Body, bends};
-use crate::report::fins;
+use crate::report::{fins, steps};
 use crate::rigidity::Paper;
 use crate::structure::{Structure, planarity};
 use crate::template::Template;
 use serde_json::{Value, json};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// What the page's script needs to know.
 pub(super) fn scene(
@@ -18,6 +18,9 @@ pub(super) fn scene(
     joint: Joint,
     template: &Template,
 ) -> Value {
+    let order = order(job, template);
+    let mut places = vec![0; order.len()];
+    order.iter().enumerate().for_each(|(place, &part)| places[part] = place);
     let parts = fins::parts(job);
     let paper = job.verdict.as_ref().and_then(|verdict| verdict.paper());
     let gaps = paper.map(discrepancies);
@@ -25,10 +28,23 @@ pub(super) fn scene(
     let bodies = bodies(structure, joint);
     let fins = structure.fins().iter().zip(&bodies).map(|(&fin, body)| {
         let part = parts.get(&fin).copied();
-        rows.fin(fin, *body, part)
+        rows.fin(fin, *body, part.map(|part| (part, places[part])))
     });
     let sheets = fins::sheets(job);
-    let part = |(index, part): (usize, &crate::parts::Part)| json!({"id": part.id, "sheet": sheets.get(&index)});
+    let part =
+        |&index: &usize| json!({"id": job.parts[index].id, "sheet": sheets.get(&index)});
+    let plates = job.parts.iter().enumerate().flat_map(|(index, part)| {
+        let node = part.body.nodes().first().copied().unwrap_or_default();
+        let place = places[index];
+        fins::plates(structure, part).into_iter().map(move |corners| {
+            let head = [json!(place), json!(node)];
+            json!(
+                head.into_iter()
+                    .chain(points(&corners).into_iter().map(|x| json!(x)))
+                    .collect::<Vec<_>>()
+            )
+        })
+    });
     json!({
         "nodes": structure.nodes().iter().map(|node| {
             points(&[node.bottom(), node.top()])
@@ -36,10 +52,21 @@ pub(super) fn scene(
         "fixed": structure.fixed(),
         "fins": fins.collect::<Vec<_>>(),
         "motion": rows.motion(&bodies),
-        "parts": job.parts.iter().enumerate().map(part).collect::<Vec<_>>(),
+        "plates": plates.collect::<Vec<_>>(),
+        "parts": order.iter().map(part).collect::<Vec<_>>(),
         "planarity_limit": template.gate.planarity_limit_percent,
         "bend_model": template.bend.model,
     })
+}
+
+/// The parts in the order of assembly; of a step its connector last.
+fn order(job: &Job, template: &Template) -> Vec<usize> {
+    let steps = steps::steps(job, template);
+    let mut order: Vec<usize> =
+        steps.into_iter().flat_map(|step| step.parts.into_iter().rev()).collect();
+    let known: BTreeSet<usize> = order.iter().copied().collect();
+    order.extend((0..job.parts.len()).filter(|part| !known.contains(part)));
+    order
 }
 
 /// The largest discrepancy of each body at each node.
@@ -86,11 +113,17 @@ struct Rows<'a> {
 }
 
 impl Rows<'_> {
-    /// `[i, j, part, planarity %, discrepancy at i and j, tightness of the bend at i and j]`.
-    fn fin(&self, [i, j]: [usize; 2], body: Option<usize>, part: Option<usize>) -> Value {
+    /// `[i, j, part, planarity %, discrepancy at i and j, tightness of the bend at i and j]`;
+    /// the part is given by its index and its place in the order of assembly.
+    fn fin(
+        &self,
+        [i, j]: [usize; 2],
+        body: Option<usize>,
+        part: Option<(usize, usize)>,
+    ) -> Value {
         let (off, diameter) = planarity(&self.structure.corners([i, j]));
         let bend = |node| {
-            let key = part.map(|part| (part, node));
+            let key = part.map(|(part, _)| (part, node));
             key.and_then(|key| self.bends.get(&key)).copied().map_or(0.0, four)
         };
         let gap = |node| {
@@ -98,7 +131,7 @@ impl Rows<'_> {
             let all = self.gaps.as_ref();
             all.map(|gaps| key.and_then(|k| gaps.get(&k)).copied().map_or(0.0, four))
         };
-        let part = part.map_or(-1, |part| part as i64);
+        let part = part.map_or(-1, |(_, place)| place as i64);
         json!([
             i,
             j,

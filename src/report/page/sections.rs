@@ -5,6 +5,7 @@ use crate::geometry::Contour;
 use crate::job::Job;
 use crate::joint::Joint;
 use crate::parts::{Body, Opening};
+use crate::report::connectors::hardware;
 use crate::report::fins;
 use crate::report::page::Page;
 use crate::report::page::html::{self, details, table};
@@ -135,7 +136,11 @@ pub(super) fn order(page: &Page) -> String {
     if rows.is_empty() {
         return "<p>No sheet was filled.</p>\n".to_owned();
     }
-    let text = table("Sheets to order", &["count", "size", "material"], &rows);
+    let bought = hardware(&page.job.parts).into_iter().map(|item| {
+        vec![item.quantity.to_string(), item.name(), format!("{}, steel", item.kind)]
+    });
+    let rows: Vec<Vec<String>> = rows.into_iter().chain(bought).collect();
+    let text = table("To order", &["count", "size", "what"], &rows);
     let used = page.manifest["sheets"].as_array().into_iter().flatten();
     let used: Vec<f64> = used.filter_map(|s| s["utilisation"].as_f64()).collect();
     let mean = 100.0 * used.iter().sum::<f64>() / used.len().max(1) as f64;

@@ -6,7 +6,10 @@
   const source = by("scene");
   const all = (part) => document.querySelectorAll(`[data-part="${CSS.escape(part)}"]`);
   const scene = source ? JSON.parse(source.textContent) : { nodes: [], fins: [], parts: [] };
-  const { nodes, fins, parts } = scene;
+  const { nodes, parts } = scene;
+  // Plates of connectors are drawn like fins: four corners, no planarity, no bend.
+  const plates = scene.plates || [], finCount = scene.fins.length;
+  const fins = [...scene.fins, ...plates.map(([part, node]) => [node, node, part, 0, 0, 0, 0, 0])];
   const state = { part: -1, turn: -1.1, tilt: 0.6, zoom: 1, pan: [0, 0], step: parts.length, playing: false, sway: 0, lift: 0 };
 
   // ---- linking: a part is chosen anywhere and shown everywhere
@@ -22,10 +25,11 @@
     draw();
   }
   function words(part) {
-    const own = fins.filter((fin) => fin[2] === part);
+    const own = fins.filter((fin) => fin[2] === part).length;
     const { id, sheet } = parts[part];
     const on = sheet == null ? "on no sheet" : `on sheet ${sheet + 1}`;
-    return `Part ${id}: step ${part + 1}, ${own.length} fins, ${on}.`;
+    const what = plates.some((plate) => plate[0] === part) ? "plates" : own === 1 ? "fin" : "fins";
+    return `Part ${id}: step ${part + 1}, ${own} ${what}, ${on}.`;
   }
   function place(part) {
     const small = by("place"), sheet = part >= 0 ? parts[part].sheet : null;
@@ -66,19 +70,29 @@
   const cross = (a, b) => [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
   const unit = (a) => { const l = Math.hypot(...a) || 1; return a.map((x) => x / l); };
   // Corners of fin f: bottom and top of its first node, bottom and top of its second.
-  const corners = fins.map(([i, j]) => [xyz(i, 0), xyz(i, 1), xyz(j, 0), xyz(j, 1)]);
+  const corners = fins.map(([i, j], f) => f < finCount
+    ? [xyz(i, 0), xyz(i, 1), xyz(j, 0), xyz(j, 1)]
+    : [0, 3, 1, 2].map((k) => plates[f - finCount].slice(2 + 3 * k, 5 + 3 * k)));
   const low = [0, 1, 2].map((k) => nodes.reduce((least, n) => Math.min(least, n[k], n[k + 3]), Infinity));
   const high = [0, 1, 2].map((k) => nodes.reduce((most, n) => Math.max(most, n[k], n[k + 3]), -Infinity));
   const middle = low.map((x, k) => (x + high[k]) / 2);
   const radius = Math.hypot(...minus(high, low)) / 2 || 1;
 
   const FILL = [0, 2, 3, 0, 3, 1], EDGE = [0, 2, 2, 3, 3, 1, 1, 0];
+  // A plate goes with the middle of its node's axis, taken from any fin there.
+  const at_node = new Map(scene.fins.flatMap(([i, j], f) => [[i, [f, 0]], [j, [f, 6]]]));
+  function motion(f) {
+    if (f < finCount) return scene.motion[f];
+    const [fin, from] = at_node.get(fins[f][0]) || [0, 0], m = scene.motion[fin];
+    const middle = [0, 1, 2].map((k) => (m[from + k] + m[from + 3 + k]) / 2);
+    return [...middle, ...middle, ...middle, ...middle];
+  }
   function buffers(order) {
     const data = [];
     fins.forEach((fin, f) => {
       const c = corners[f], normal = unit(cross(minus(c[2], c[0]), minus(c[1], c[0])));
       for (const k of order) {
-        const moved = scene.motion ? scene.motion[f].slice(3 * k, 3 * k + 3) : [0, 0, 0];
+        const moved = scene.motion ? motion(f).slice(3 * k, 3 * k + 3) : [0, 0, 0];
         const axis = unit(minus(xyz(fin[k >> 1], 1), xyz(fin[k >> 1], 0)));
         data.push(...minus(c[k], middle).map((x) => x / radius), ...moved, ...axis, ...normal, fin[2]);
       }
