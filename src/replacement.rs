@@ -62,6 +62,8 @@ pub fn only(
     let name = job.structure.as_ref().map(|structure| structure.name().to_owned());
     let name = format!("{}: only {}", name.unwrap_or_default(), names.join(" "));
     job.parts.retain(|part| names.contains(&part.id));
+    // They are about all parts, by their places among them.
+    job.steps = Vec::new();
     job.findings.retain(|finding| !finding.code.starts_with("nest::"));
     job.layout = Layout::default();
     job.only = names;

@@ -14,6 +14,9 @@ pub(super) struct Manifest {
     pub sheet_stock: Vec<Stock>,
     pub parts: Vec<Part>,
     pub sheets: Vec<Sheet>,
+    /// The parts that were made again, if it is not all of them.
+    #[serde(default)]
+    pub only: Option<Vec<String>>,
     #[serde(default)]
     pub proof: Written,
     /// The same parts in files for a service.

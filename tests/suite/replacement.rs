@@ -38,6 +38,21 @@ fn parts_made_again_are_the_parts_of_the_job_and_verify_passes() {
 }
 
 #[test]
+fn a_connector_is_made_again_with_all_its_plates() {
+    let place = tempfile::tempdir().unwrap();
+    let dir = place.path().join("again");
+    let make = ["make", "three", "--joint", "hub", "-q", "--effort", "quick"];
+    let only = ["--only", "n0,F001", "-o"];
+    let made = finwright(&[&make[..], &only].concat(), &dir);
+    assert_eq!(made.status.code(), Some(0), "{}", String::from_utf8_lossy(&made.stderr));
+    assert_eq!(finwright(&["verify", "-q"], &dir).status.code(), Some(0));
+    let manifest = manifest(&dir);
+    let placements = manifest["sheets"][0]["placements"].as_array().unwrap();
+    let copies: Vec<&Value> = placements.iter().map(|p| &p["copy"]).collect();
+    assert_eq!(placements.len(), 3, "two discs and a fin: {copies:?}");
+}
+
+#[test]
 fn a_name_that_no_part_has_is_told_with_the_nearest_and_nothing_is_written() {
     let place = tempfile::tempdir().unwrap();
     let dir = place.path().join("again");
