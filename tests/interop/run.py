@@ -4,10 +4,13 @@ from __future__ import annotations
 
 import argparse
 import json
+import os
 import subprocess
 import sys
 import tempfile
+import threading
 import time
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -75,13 +78,15 @@ class Runner:
     def __init__(self, binary: Path, scratch: Path, extra: list[str]) -> None:
         self.binary, self.scratch, self.extra = binary, scratch, extra
         self.passed, self.failed = 0, []
+        self.telling = threading.Lock()
 
     def note(self, name: str, holds: bool, text: str = "") -> None:
-        print(f"{'PASS' if holds else 'FAIL'} {name}{'  ' + text if text else ''}", flush=True)
-        if holds:
-            self.passed += 1
-        else:
-            self.failed.append(name)
+        with self.telling:
+            print(f"{'PASS' if holds else 'FAIL'} {name}{'  ' + text if text else ''}", flush=True)
+            if holds:
+                self.passed += 1
+            else:
+                self.failed.append(name)
 
     def finwright(self, *words: str) -> subprocess.CompletedProcess:
         return subprocess.run([str(self.binary), *words], cwd=self.scratch, capture_output=True, text=True, check=False)
@@ -198,12 +203,14 @@ def main() -> int:
             runner.coupon()
         if options.only in "nest":
             nesting.checked(runner, layout_faults)
-        for name in PLANARISED if options.meshes else ():
-            if options.only in f"planarise {name}":
-                runner.planarise((options.meshes / name).resolve())
-        for case in cases(runner, options.meshes, options.connectors):
-            if options.only in case.name:
-                runner.run(case, again=case.name == "default")
+        chosen = [case for case in cases(runner, options.meshes, options.connectors) if options.only in case.name]
+        meshes = [name for name in PLANARISED if options.meshes and options.only in f"planarise {name}"]
+        # Each waits for programs of its own: as many at a time as there are cores.
+        with ThreadPoolExecutor(os.cpu_count()) as pool:
+            started = [pool.submit(runner.planarise, (options.meshes / name).resolve()) for name in meshes]
+            started += [pool.submit(runner.run, case, case.name == "default") for case in chosen]
+            for task in started:
+                task.result()
     for name in runner.failed:
         print(f"failed: {name}")
     print(f"{runner.passed} passed, {len(runner.failed)} failed")
