@@ -83,6 +83,9 @@ fn is_complete(job: &Job, joint: Joint) {
     let nodes: Vec<usize> = connectors(job).map(|(_, body)| body.node()).collect();
     assert_eq!(nodes, joined.map(|(k, _)| k).collect::<Vec<_>>());
     for (part, body) in connectors(job) {
+        // Windows, rod, and the key hole that tells which face is up.
+        let holes = if joint == Joint::Hub { body.fins.len() + 2 } else { 1 };
+        assert_eq!(part.region.holes.len(), holes, "{}", part.id);
         let plates = if joint == Joint::Hub { 2 } else { 2 * body.fins.len() };
         assert_eq!((part.quantity, body.copies.len()), (plates, plates));
     }

@@ -11,6 +11,7 @@ use crate::parts::fit::Fit;
 use crate::parts::mark::GAP;
 use crate::parts::outline::without_doubles;
 use crate::parts::part::{Mark, MarkKind};
+use crate::tolerance::SAME_FOLD;
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_8};
 
 /// Radius of the key hole, mm: a wire or a match goes through.
@@ -76,21 +77,22 @@ fn window(hub: &Hub, fit: &Fit, bearing: f64) -> Contour {
 }
 
 /// Where the key hole is: in the widest sector, on the counter-clockwise side of the window
-/// that begins it; nowhere if no sector has room.
+/// that begins it, a web from everything, or the least web where there is no room for more.
 fn key(hub: &Hub, fit: &Fit) -> Option<Point2> {
     let sectors = hub.sectors();
     let widest = sectors.iter().copied().fold(0.0, f64::max);
-    let place = sectors
-        .iter()
-        .position(|&angle| angle >= widest - crate::tolerance::SAME_FOLD)?;
-    let ray = Ray::new(hub.around.spokes[place].bearing);
-    let aside = hub.width / 2.0 + fit.web + KEY_RADIUS;
-    let center = ray.at(hub.inner + hub.slot / 2.0, aside);
-    let next = Ray::new(hub.around.spokes[(place + 1) % hub.around.spokes.len()].bearing);
-    let beyond = -(center - Point2::origin()).dot(&next.left);
-    let free = widest >= std::f64::consts::PI || beyond >= aside + KEY_RADIUS;
-    let inside = center.coords.norm() + KEY_RADIUS + fit.web <= hub.radius;
-    (free && inside).then_some(center)
+    let place = sectors.iter().position(|&angle| angle >= widest - SAME_FOLD)?;
+    let spokes = &hub.around.spokes;
+    let ray = Ray::new(spokes[place].bearing);
+    let next = Ray::new(spokes[(place + 1) % spokes.len()].bearing);
+    [fit.web, fit.web_least].into_iter().find_map(|web| {
+        let aside = hub.width / 2.0 + web + KEY_RADIUS;
+        let center = ray.at(hub.inner + hub.slot / 2.0, aside);
+        let way = center.coords;
+        // The next window is on its own side of the axis only.
+        let free = way.dot(&next.out) <= 0.0 || -way.dot(&next.left) >= aside;
+        (free && way.norm() + KEY_RADIUS + web <= hub.radius).then_some(center)
+    })
 }
 
 /// Engraved on the upper face: the node, and beside each window the fin that stands there.

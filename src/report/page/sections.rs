@@ -175,7 +175,11 @@ pub(super) fn parts(page: &Page) -> String {
     };
     let rows: Vec<Vec<String>> = job.parts.iter().enumerate().map(row).collect();
     let heads = ["part", "length mm", "height mm", "cut mm", "sheet", "nodes in order"];
-    table("Parts in the order of assembly", &heads, &rows)
+    let caption = match job.steps.is_empty() {
+        true => "Parts in the order of assembly",
+        false => "Fins, then connectors by their nodes",
+    };
+    table(caption, &heads, &rows)
 }
 
 /// Every slit with its reason.
