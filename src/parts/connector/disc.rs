@@ -1,7 +1,7 @@
 //! A disc: hole, windows, ring, and what is engraved on it.
 //!
 //! The origin is the node axis, the first spoke runs along x, and the labelled face looks
-//! up the axis. A small key hole on the counter-clockwise side of a window tells a disc that
+//! up the axis. A small key hole on the clockwise side of a window tells a disc that
 //! is upside down: then it lies on the other side, and a wire does not go through both.
 
 use crate::geometry::{Contour, Point2, Region, Vector2, Vertex, trig};
@@ -76,21 +76,22 @@ fn window(hub: &Hub, fit: &Fit, bearing: f64) -> Contour {
     Contour { vertices }
 }
 
-/// Where the key hole is: in the widest sector, on the counter-clockwise side of the window
-/// that begins it, a web from everything, or the least web where there is no room for more.
+/// Where the key hole is: in the widest sector, on the clockwise side of the window that ends
+/// it (names stand on the other side of windows), a web from everything, or the least web
+/// where there is no room for more.
 fn key(hub: &Hub, fit: &Fit) -> Option<Point2> {
     let sectors = hub.sectors();
     let widest = sectors.iter().copied().fold(0.0, f64::max);
     let place = sectors.iter().position(|&angle| angle >= widest - SAME_FOLD)?;
     let spokes = &hub.around.spokes;
-    let ray = Ray::new(spokes[place].bearing);
-    let next = Ray::new(spokes[(place + 1) % spokes.len()].bearing);
+    let before = Ray::new(spokes[place].bearing);
+    let ray = Ray::new(spokes[(place + 1) % spokes.len()].bearing);
     [fit.web, fit.web_least].into_iter().find_map(|web| {
         let aside = hub.width / 2.0 + web + KEY_RADIUS;
-        let center = ray.at(hub.inner + hub.slot / 2.0, aside);
+        let center = ray.at(hub.inner + hub.slot / 2.0, -aside);
         let way = center.coords;
-        // The next window is on its own side of the axis only.
-        let free = way.dot(&next.out) <= 0.0 || -way.dot(&next.left) >= aside;
+        // The other window is on its own side of the axis only.
+        let free = way.dot(&before.out) <= 0.0 || way.dot(&before.left) >= aside;
         (free && way.norm() + KEY_RADIUS + web <= hub.radius).then_some(center)
     })
 }
