@@ -14,8 +14,8 @@ use crate::parts::part::{Mark, MarkKind};
 use crate::tolerance::SAME_FOLD;
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_8};
 
-/// Radius of the key hole, mm: a wire or a match goes through.
-const KEY_RADIUS: f64 = 1.0;
+/// Radius of the key hole, mm: a wire goes through.
+const KEY_RADIUS: f64 = 0.75;
 
 /// Letters on discs are at least this share of the template's height.
 const SHARES: [f64; 5] = [1.0, 0.85, 0.7, 0.6, 0.5];
@@ -76,23 +76,29 @@ fn window(hub: &Hub, fit: &Fit, bearing: f64) -> Contour {
     Contour { vertices }
 }
 
-/// Where the key hole is: in the widest sector, on the clockwise side of the window that ends
-/// it (names stand on the other side of windows), a web from everything, or the least web
-/// where there is no room for more.
+/// Where the key hole is: in the widest sector with room, on the clockwise side of the window
+/// that ends it (names stand on the other side of windows), a web from it and from the rim.
 fn key(hub: &Hub, fit: &Fit) -> Option<Point2> {
     let sectors = hub.sectors();
-    let widest = sectors.iter().copied().fold(0.0, f64::max);
-    let place = sectors.iter().position(|&angle| angle >= widest - SAME_FOLD)?;
+    let mut order: Vec<usize> = (0..sectors.len()).collect();
+    // Sectors that rounding alone tells apart stay in their order.
+    order.sort_by_key(|&place| -(sectors[place] / SAME_FOLD).round() as i64);
     let spokes = &hub.around.spokes;
-    let before = Ray::new(spokes[place].bearing);
-    let ray = Ray::new(spokes[(place + 1) % spokes.len()].bearing);
-    [fit.web, fit.web_least].into_iter().find_map(|web| {
-        let aside = hub.width / 2.0 + web + KEY_RADIUS;
-        let center = ray.at(hub.inner + hub.slot / 2.0, -aside);
+    let (reach, aside) =
+        (hub.radius - fit.web - KEY_RADIUS, hub.width / 2.0 + fit.web + KEY_RADIUS);
+    let along = (reach * reach - aside * aside).max(0.0).sqrt();
+    order.into_iter().find_map(|place| {
+        let before = Ray::new(spokes[place].bearing);
+        let middle = Ray::new(spokes[place].bearing + sectors[place] / 2.0);
+        let ray = Ray::new(spokes[(place + 1) % spokes.len()].bearing);
+        let center = ray.at(along, -aside);
         let way = center.coords;
         // The other window is on its own side of the axis only.
-        let free = way.dot(&before.out) <= 0.0 || way.dot(&before.left) >= aside;
-        (free && way.norm() + KEY_RADIUS + web <= hub.radius).then_some(center)
+        let free = way.dot(&before.out) <= 0.0 || way.dot(&before.left).abs() >= aside;
+        let rod = way.norm() >= hub.hole + fit.web + KEY_RADIUS;
+        // Turned over, the disc has no hole there.
+        let tells = way.dot(&middle.left).abs() >= KEY_RADIUS;
+        (free && rod && tells).then_some(center)
     })
 }
 
