@@ -2,6 +2,7 @@
 
 use crate::job::{Interrupted, Job, on_sheets};
 use crate::nest::{Effort, Layout};
+use crate::parts::{Body, steps};
 use crate::template::{Template, nearest};
 use crate::watch::Watch;
 use miette::Diagnostic;
@@ -62,8 +63,9 @@ pub fn only(
     let name = job.structure.as_ref().map(|structure| structure.name().to_owned());
     let name = format!("{}: only {}", name.unwrap_or_default(), names.join(" "));
     job.parts.retain(|part| names.contains(&part.id));
-    // They are about all parts, by their places among them.
-    job.steps = Vec::new();
+    // What connectors hold is not all here.
+    job.steps = steps(&job.parts);
+    job.steps.retain(|step| matches!(job.parts[step.part].body, Body::Strip(_)));
     job.findings.retain(|finding| !finding.code.starts_with("nest::"));
     job.layout = Layout::default();
     job.only = names;

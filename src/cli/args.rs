@@ -128,7 +128,7 @@ pub struct InputArgs {
     #[arg(long, value_enum, default_value = "lap")]
     pub joint: Joint,
 
-    /// Nodes that get hubs although `--joint hinge` hangs all others on rods
+    /// Nodes that get hubs although the others lap, or hang on rods
     #[arg(long, value_name = "I,J,..", value_delimiter = ',')]
     pub hubs: Vec<usize>,
 

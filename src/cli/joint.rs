@@ -21,12 +21,15 @@ impl ValueEnum for Joint {
     }
 }
 
-/// Ends the command if hubs were asked for on nodes of a joint that has none or only hubs.
+/// Ends the command if single hubs were asked for where every node has one, or remedies for
+/// a joint that has none.
 pub(super) fn may_have_hubs(args: &InputArgs, apply_remedies: bool) {
-    if args.joint == Joint::Hinge || args.hubs.is_empty() && !apply_remedies {
-        return;
-    }
-    let option = if apply_remedies { "--apply-remedies" } else { "--hubs" };
-    let message = format!("{option} goes with --joint hinge");
+    let message = match args.joint {
+        Joint::Hub if !args.hubs.is_empty() => "--joint hub has a hub on every node",
+        Joint::Hub | Joint::Lap if apply_remedies => {
+            "--apply-remedies goes with --joint hinge"
+        }
+        _ => return,
+    };
     Cli::command().error(ErrorKind::ArgumentConflict, message).exit();
 }

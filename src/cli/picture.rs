@@ -16,7 +16,8 @@ use thiserror::Error;
 #[diagnostic(
     code(input::no_connector),
     help(
-        "single fins have them (`--joint hub`, `--joint hinge`), where two or more meet"
+        "single fins have them (`--joint hub`, `--joint hinge`), where two or more meet, and \
+         strips where they cannot lap"
     )
 )]
 struct NoConnector {
@@ -26,7 +27,7 @@ struct NoConnector {
 /// What to draw.
 #[derive(Debug, Args)]
 pub struct PictureArgs {
-    /// Draw this node as it is built (`--joint hub` or `hinge`), into `--picture`
+    /// Draw this node's connector as it is built, into `--picture`
     #[arg(long, value_name = "N", requires = "picture")]
     node: Option<usize>,
 

@@ -128,13 +128,16 @@ fn summary(proof: &Proof) -> String {
         return format!("{parts} parts {end}; none of them goes back into a structure");
     }
     let Some(worst) = proof.worst.first() else { return "nothing to prove".to_owned() };
+    let slits = match proof.slits.is_empty() {
+        true => format!("slots are turned by {:.4}° at most", worst.slot_deg),
+        false => format!(
+            "slits are placed to {:.4} mm with {:.3} to {:.3} mm of play",
+            worst.slit_off_mm, worst.slit_play_least_mm, worst.slit_play_most_mm,
+        ),
+    };
     let figures = format!(
-        "{} parts; axes meet to {:.4} mm, slits are placed to {:.4} mm with {:.3} to {:.3} mm of play",
-        worst.parts,
-        worst.node_gap_mm,
-        worst.slit_off_mm,
-        worst.slit_play_least_mm,
-        worst.slit_play_most_mm,
+        "{} parts; axes meet to {:.4} mm, {slits}",
+        worst.parts, worst.node_gap_mm
     );
     let end =
         if fine { "it folds into the structure" } else { "it is not what the job says" };

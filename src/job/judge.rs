@@ -24,9 +24,11 @@ pub fn model(
     let fingerprint = |structure| Fingerprint::of(structure, joint, &template.source);
     match joint {
         Joint::Lap => {
-            let (structure, unheld) = parts::lapped(structure, &fit(template));
+            let asked = &template.joint.hub_nodes;
+            let lapped = parts::lapped(structure, asked, &fit(template));
+            let parts::Lapped { structure, unheld, levers } = lapped;
             let fingerprint = fingerprint(&structure);
-            (Model::of(&structure, joint, &unheld), structure, fingerprint)
+            (Model::of_strips(&structure, &unheld, &levers), structure, fingerprint)
         }
         Joint::Hinge | Joint::Hub => {
             let levers = parts::levers(

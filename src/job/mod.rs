@@ -10,7 +10,7 @@ use crate::geometry::{Contour, Point2};
 use crate::joint::Joint;
 use crate::nest::{self, Effort, Layout, NestError, Shape, Stock};
 use crate::order::{self, Profile, Wanted};
-use crate::parts::{self, ConnectorFinding, Making, Part, Step};
+use crate::parts::{self, Body, ConnectorFinding, Making, Part, Step};
 use crate::rigidity::{Fingerprint, Stopped, Verdict};
 pub use crate::setting::fit;
 use crate::setting::{frame, marking, stock, tolerance, turns};
@@ -50,7 +50,7 @@ pub struct Job {
     pub verdict: Option<Verdict>,
     /// The parts in the order of assembly.
     pub parts: Vec<Part>,
-    /// How single fins and connectors go together; strips go by their ranks.
+    /// How they go together.
     pub steps: Vec<Step>,
     /// Stock that the layout chose from.
     pub stock: Vec<Stock>,
@@ -172,6 +172,11 @@ fn lay(
 }
 
 impl Job {
+    /// Whether it has a part of a kind.
+    pub fn has(&self, is: impl Fn(&Body) -> bool) -> bool {
+        self.parts.iter().any(|part| is(&part.body))
+    }
+
     /// Makes the files' sheets for the service that the template names, if it names one.
     fn order(&mut self, template: &Template) {
         let output = &template.output;
@@ -205,20 +210,18 @@ impl Job {
             stock.iter().any(|sheet| nest::fits(&drawn, &turns, sheet).is_some())
         };
         let making = Making { fit: &fit, marking: marking(template), fits: &fits };
-        if joint != Joint::Lap {
-            let is_hub = |node: usize| has_hub(joint, template, node);
-            let made = parts::connected(&structure, &is_hub, &making);
-            self.findings.extend(made.findings);
-            (self.parts, self.steps) = (made.parts, made.steps);
-            self.structure = Some(structure);
-            return;
-        }
-        let made = parts::strips(structure, &making);
-        self.findings.extend(made.findings.into_iter().map(Finding::from));
+        let made = match joint {
+            Joint::Lap => parts::strips(&structure, &template.joint.hub_nodes, &making),
+            Joint::Hinge | Joint::Hub => {
+                let is_hub = |node: usize| has_hub(joint, template, node);
+                parts::connected(&structure, &is_hub, &making)
+            }
+        };
+        self.findings.extend(made.findings);
         let tight = parts::tight_insertions(&made.structure, &made.parts, &fit);
         self.findings.extend(tight.into_iter().map(Finding::from));
         self.structure = Some(made.structure);
-        self.parts = made.parts;
+        (self.parts, self.steps) = (made.parts, made.steps);
     }
 
     /// The sheets, if findings and verdict let them pass; the verdict must be about the

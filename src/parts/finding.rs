@@ -32,26 +32,41 @@ pub enum PartFinding {
 
     #[error(
         "nothing holds the end of {part} at node {node}: it cannot lap with the {others} \
-         other fins there and is set back by {setback_mm:.2} mm"
+         other fins there and is set back by {setback_mm:.2} mm{}",
+        because(why.as_deref())
     )]
     #[diagnostic(
         code(parts::strip_end_unheld),
         severity(Warning),
-        help("glue it, or hold the node with a connector")
+        help(
+            "glue it, or give the discs room: deeper fins, a larger scale, a thinner sheet"
+        )
     )]
-    StripEndUnheld { part: String, node: usize, others: usize, setback_mm: f64 },
+    StripEndUnheld {
+        part: String,
+        node: usize,
+        others: usize,
+        setback_mm: f64,
+        why: Option<String>,
+    },
 
     #[error("{first} and {second} both run through node {node} but do not cross there")]
     #[diagnostic(
         code(parts::strips_touch),
-        help("two strips can share an axis only by crossing; let one of them end there")
+        help(
+            "two strips can share an axis only by crossing, and discs (`--hubs {node}`) have no \
+             room; let one of them end there"
+        )
     )]
     StripsTouch { first: String, second: String, node: usize },
 
     #[error("{count} strips run through node {node}")]
     #[diagnostic(
         code(parts::too_many_strips),
-        help("two strips can be half-lapped on one axis; let the others end there")
+        help(
+            "two strips can be half-lapped on one axis, and discs (`--hubs {node}`) have no \
+             room; let the others end there"
+        )
     )]
     TooManyStrips { node: usize, count: usize },
 
@@ -216,6 +231,11 @@ pub enum PartFinding {
         help("slits and edges are too near each other; enlarge the structure")
     )]
     OutlineCrossesItself { part: String, node: usize },
+}
+
+/// Why discs do not hold an end.
+fn because(why: Option<&str>) -> String {
+    why.map(|why| format!("; discs have no room: {why}")).unwrap_or_default()
 }
 
 /// What would save a strip from breaking.

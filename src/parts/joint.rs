@@ -2,11 +2,12 @@
 //!
 //! Two strips that cross on a node axis are half-lapped. A strip that ends on another one
 //! laps too if it can run on past the axis (the *overhang*); where another fin is in the
-//! way, its end is set back and nothing holds it.
+//! way, its end is set back, and stands in discs if they have room.
 
 use crate::geometry::Vector3;
 use crate::parts::finding::PartFinding;
 use crate::parts::fit::Fit;
+use crate::parts::hold::Hubs;
 use crate::parts::rank::ranks;
 use crate::parts::unfold::FlatStrip;
 use crate::structure::{FinTree, Structure};
@@ -62,6 +63,8 @@ pub enum End {
     Overhang(f64),
     /// It stops this far before the axis and is not held.
     SetBack(f64),
+    /// It stops this far before the axis and stands in discs.
+    Held(f64),
 }
 
 /// The joints of one strip.
@@ -127,16 +130,18 @@ impl Lap {
     }
 }
 
-/// Joins the strips at all nodes.
+/// Joins the strips at all nodes; at nodes with `hubs` all of them end in discs.
 pub fn join(
     structure: &Structure,
     strips: &[FlatStrip],
     fit: &Fit,
+    hubs: &Hubs,
 ) -> (Joinery, Vec<PartFinding>) {
     let tree = FinTree::new(structure);
     let at = passages(structure, strips);
     let meetings: Vec<Meeting> = at
         .iter()
+        .filter(|(node, _)| !hubs.contains_key(node))
         .map(|(&node, passages)| Meeting { structure, tree: &tree, fit, node, passages })
         .collect();
     let laps: Vec<Option<Lap>> = meetings.iter().map(Meeting::lap).collect();
@@ -145,14 +150,26 @@ pub fn join(
         rank.iter().map(|rank| strip_name(*rank, strips.len())).collect();
     let free = Joints { slits: BTreeMap::new(), ends: [End::Free; 2] };
     let mut joints = vec![free; strips.len()];
+    let held = at.iter().filter_map(|(node, passages)| Some((passages, hubs.get(node)?)));
+    for (passage, hub) in held.flat_map(|(all, hub)| all.iter().map(move |p| (p, hub))) {
+        passage.end.into_iter().for_each(|end| {
+            joints[passage.strip].ends[end] = End::Held(hub.setback);
+        });
+    }
     let mut findings = Vec::new();
     for (meeting, lap) in meetings.iter().zip(&laps) {
         for (passage, end, setback_mm) in meeting.set_back(lap.as_ref()) {
             joints[passage.strip].ends[end] = End::SetBack(setback_mm);
             let others = structure.nodes()[meeting.node].arms.len() - 1;
             let part = names[passage.strip].clone();
-            let node = meeting.node;
-            findings.push(PartFinding::StripEndUnheld { part, node, others, setback_mm });
+            let (node, why) = (meeting.node, None);
+            findings.push(PartFinding::StripEndUnheld {
+                part,
+                node,
+                others,
+                setback_mm,
+                why,
+            });
         }
         findings.extend(meeting.clash(lap.as_ref(), &names));
         if let Some(lap) = lap {

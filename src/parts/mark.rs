@@ -6,7 +6,7 @@
 
 use crate::geometry::{Point2, Vector2};
 use crate::lettering::{letter, width};
-use crate::parts::joint::{End, Opening, Slit};
+use crate::parts::joint::{Opening, Slit};
 use crate::parts::outline::{Closure, Piece};
 use crate::parts::part::{Mark, MarkKind};
 use crate::parts::unfold::{FlatAxis, Fold};
@@ -46,7 +46,7 @@ pub(super) fn marks(
 ) -> Vec<Mark> {
     let mut marks = Vec::new();
     let whole = piece;
-    let piece = &with_a_fin(piece);
+    let piece = &between_notches(with_a_fin(piece));
     let last = piece.axes.len() - 1;
     for fin in 0..last {
         let mut cell = Cell::new(piece, fin);
@@ -97,6 +97,17 @@ fn with_a_fin(piece: &Piece) -> Piece {
             piece.slits = piece.slits.into_values().map(|slit| (1, slit)).collect();
         }
         [None, None] => {}
+    }
+    piece
+}
+
+/// A piece whose held ends are only as high as their notches leave.
+fn between_notches(mut piece: Piece) -> Piece {
+    let last = piece.axes.len() - 1;
+    for (closure, place) in piece.closures.iter().zip([0, last]) {
+        let Closure::Held(held) = closure else { continue };
+        let ([low, high], axis) = (held.heights, &mut piece.axes[place]);
+        (axis.below, axis.above) = (axis.below.min(-low), axis.above.min(high));
     }
     piece
 }
@@ -291,8 +302,5 @@ fn clear(
     wall: impl Fn(&Slit) -> f64,
 ) -> f64 {
     let slit = piece.slits.get(&place).map_or(0.0, wall);
-    match &piece.closures[side] {
-        Closure::End(End::SetBack(distance)) if at_end => slit.max(*distance),
-        _ => slit,
-    }
+    if at_end { slit.max(piece.closures[side].setback()) } else { slit }
 }

@@ -24,24 +24,27 @@ mod unfold;
 
 pub use bend::bends;
 pub use connector::{
-    Around, Connected, Connector, ConnectorFinding, Copy, Hinge, Hub, Spoke, Step,
-    collisions, connected, copies, inner_radius, levers,
+    Around, Built, Connector, ConnectorFinding, Copy, Form, Hinge, Hit, Hub, Plates,
+    Role, Snug, Spoke, Step, collisions, connected, copies, inner_radius, levers, steps,
+    together,
 };
 pub use coupon::{Fitted, Mark as CouponMark, coupon};
 pub use finding::PartFinding;
 pub use fit::Fit;
-pub use hold::lapped;
+pub use hold::{Hubs, Lapped, lapped};
 pub use insertion::{Insertion, insertion};
 pub use joint::{End, Joinery, Joints, Opening, Slit, join};
 pub use mark::{FoldMarks, Marking};
-pub use outline::{Closure, Piece, outline};
-pub use part::{Body, ConnectorBody, FinBody, Mark, MarkKind, Part, StripBody};
+pub use outline::{Closure, HeldEnd, Piece, outline};
+pub use part::{Body, ConnectorBody, FinBody, Mark, MarkKind, Part, StripBody, Tip};
 pub use setback::{clear_of, setback};
 pub use unfold::{FlatAxis, FlatStrip, Fold, unfold};
 
+use crate::diagnostic::Finding;
 use crate::geometry::{Point2, Region, predicates};
-use crate::structure::{Strip, Structure};
+use crate::structure::Structure;
 use crate::tolerance::ARC_SAGITTA_MM;
+use hold::{Plan, plan};
 use splice::Whole;
 use std::collections::BTreeMap;
 use strength::Slitted;
@@ -56,16 +59,19 @@ pub struct Making<'a> {
     pub fits: &'a dyn Fn(&[Point2]) -> bool,
 }
 
-/// Strips as parts.
+/// A structure as parts.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Made {
     /// The structure with its strips as they were cut: closed ones opened at their
-    /// smallest fold, those that would lie over themselves split.
+    /// smallest fold, those that would lie over themselves or run through discs split.
     pub structure: Structure,
-    /// The parts in the order of assembly.
+    /// Strips in the order of assembly, or fins in that of the structure; then connectors in
+    /// the order of nodes.
     pub parts: Vec<Part>,
+    /// In which order they go together.
+    pub steps: Vec<Step>,
     /// Everything found on the way.
-    pub findings: Vec<PartFinding>,
+    pub findings: Vec<Finding>,
 }
 
 /// Says that a structure is too small for the sheet, rather than that each of its parts is:
@@ -84,59 +90,33 @@ pub fn too_small(structure: &Structure, fit: &Fit) -> Option<PartFinding> {
     })
 }
 
-/// Makes the parts of a structure whose strips are half-lapped.
-pub fn strips(structure: Structure, making: &Making) -> Made {
-    let (flat, mut split) = flat_strips(&structure);
-    let structure = structure.with_strips(flat.iter().map(chain).collect());
-    let (joinery, found) = join(&structure, &flat, making.fit);
-    for (strip, finding) in &mut split {
-        if let PartFinding::OverlapsItself { part, .. } = finding {
-            part.clone_from(&joinery.names[*strip]);
-        }
-    }
-    let mut findings: Vec<PartFinding> = split.into_iter().map(|(_, f)| f).collect();
-    findings.extend(found);
+/// Makes the parts of a structure whose strips are half-lapped; the nodes `asked` get hubs,
+/// and so do those where ends of strips cannot lap.
+pub fn strips(structure: &Structure, asked: &[usize], making: &Making) -> Made {
+    let plan = plan(structure, asked, making.fit);
+    let Plan { structure, flat, joinery, hubs, findings } = &plan;
+    let mut findings: Vec<Finding> =
+        findings.iter().cloned().map(Finding::from).collect();
     let mut parts = Vec::new();
     for (rank, &strip) in joinery.order.iter().enumerate() {
         let name = joinery.names[strip].as_str();
         let (flat, joints) = (&flat[strip], &joinery.joints[strip]);
         let slitted =
             Slitted { name, strip: flat, slits: &joints.slits, fit: making.fit };
-        findings.extend(strength::weaknesses(&slitted));
-        let whole = Whole { name, strip: flat, joints, fit: making.fit };
+        findings.extend(strength::weaknesses(&slitted).into_iter().map(Finding::from));
+        let whole = Whole { name, strip: flat, joints, fit: making.fit, hubs };
         let pieces = splice::pieces(&whole, making.fits).unwrap_or_else(|finding| {
-            findings.push(finding);
+            findings.push(finding.into());
             vec![whole.uncut()]
         });
         let seat = Seat { strip, rank, flat, making, name };
         parts.extend(seat.parts(pieces));
     }
     name_partners(&mut parts, &joinery.names);
-    findings.extend(parts.iter().filter_map(crossing_outline));
-    Made { structure, parts, findings }
-}
-
-/// All strips unfolded; where one had to be split, a note about the first piece.
-fn flat_strips(structure: &Structure) -> (Vec<FlatStrip>, Vec<(usize, PartFinding)>) {
-    let mut flat = Vec::new();
-    let mut findings = Vec::new();
-    let chains = seam::opened(structure);
-    for (strip, chain) in structure.strips().iter().zip(chains) {
-        let (pieces, cuts) =
-            unfold::unfold_without_overlap(structure, &chain, strip.closed);
-        findings.extend(cuts.into_iter().map(|node| {
-            let part = String::new();
-            (flat.len(), PartFinding::OverlapsItself { part, node })
-        }));
-        flat.extend(pieces);
-    }
-    (flat, findings)
-}
-
-fn chain(flat: &FlatStrip) -> Strip {
-    let nodes = flat.axes.iter().map(|axis| axis.node);
-    let count = flat.axes.len() - usize::from(flat.closed);
-    Strip { nodes: nodes.take(count).collect(), closed: flat.closed }
+    findings.extend(parts.iter().filter_map(crossing_outline).map(Finding::from));
+    findings.extend(connector::discs(&plan, &mut parts, making));
+    let structure = structure.clone();
+    Made { steps: steps(&parts), structure, parts, findings }
 }
 
 /// A strip on its way to parts.
@@ -182,6 +162,7 @@ impl Seat<'_> {
             splices: left.into_iter().chain(right).collect(),
             closed: self.flat.closed && left.is_none() && right.is_none(),
             rank: self.rank,
+            setbacks: [0, 1].map(|end| piece.closures[end].setback()),
             axes: piece.axes,
         };
         let region = Region { outline, holes: Vec::new() };

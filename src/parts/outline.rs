@@ -15,6 +15,39 @@ pub enum Closure {
     /// A cut through the fin beyond, from the bottom edge to the top edge; its first and
     /// last corners are left and reached straight.
     Splice(Vec<Vertex>),
+    /// An end that stands in discs.
+    Held(HeldEnd),
+}
+
+/// An end of a strip that stands in discs.
+#[derive(Debug, Clone, PartialEq)]
+pub struct HeldEnd {
+    /// From the bottom edge over the end edge to the top edge.
+    pub cut: Vec<Vertex>,
+    /// Where the end edge is, from the axis, mm.
+    pub setback: f64,
+    /// Heights on the axis whose lines to the far corners pass between the notches.
+    pub heights: [f64; 2],
+}
+
+impl Closure {
+    /// The cut through the part, if it is not made of the axis's own corners.
+    fn cut(&self) -> Option<&[Vertex]> {
+        match self {
+            Self::Splice(cut) => Some(cut),
+            Self::Held(held) => Some(&held.cut),
+            Self::End(_) => None,
+        }
+    }
+
+    /// How far from its axis the part stops, mm.
+    pub(super) const fn setback(&self) -> f64 {
+        match self {
+            Self::End(End::SetBack(distance) | End::Held(distance)) => *distance,
+            Self::Held(held) => held.setback,
+            Self::End(_) | Self::Splice(_) => 0.0,
+        }
+    }
 }
 
 /// A run of node axes with its slits (by place in `axes`) and closures.
@@ -60,11 +93,11 @@ pub fn outline(piece: &Piece, fit: &Fit) -> Contour {
     let mut top = edge(piece, Opening::Top, &left, &right);
     top.reverse();
     let mut vertices = notched(&bottom, fit);
-    if let Closure::Splice(cut) = &piece.closures[1] {
+    if let Some(cut) = piece.closures[1].cut() {
         vertices.extend(inner(cut));
     }
     vertices.extend(notched(&top, fit));
-    if let Closure::Splice(cut) = &piece.closures[0] {
+    if let Some(cut) = piece.closures[0].cut() {
         vertices.extend(inner(&reversed(cut)));
     }
     Contour { vertices }
@@ -95,7 +128,7 @@ pub(super) fn without_doubles(chain: &mut Vec<Vertex>) {
 
 /// Where the edges stop at one end of a piece.
 struct Ends {
-    /// Corner of the bottom edge and of the top edge; `None` if a splice makes them.
+    /// Corner of the bottom edge and of the top edge; `None` if a cut makes them.
     corners: Option<[Point2; 2]>,
     /// Whether the last axis lies inside the outline.
     keeps_axis: bool,
@@ -113,10 +146,11 @@ fn ends(piece: &Piece, way: Way) -> Ends {
     };
     match &piece.closures[way as usize] {
         Closure::Splice(_) => Ends { corners: None, keeps_axis: true },
+        Closure::Held(_) => Ends { corners: None, keeps_axis: false },
         Closure::End(End::Free) => {
             Ends { corners: Some([axis.bottom(), axis.top()]), keeps_axis: false }
         }
-        Closure::End(End::SetBack(distance)) => {
+        Closure::End(End::SetBack(distance) | End::Held(distance)) => {
             let toward = |from: Point2, to: Point2| {
                 let run = (to - from).dot(&axis.right()).abs();
                 from + (to - from) * (distance / run.max(*distance)).min(0.9)
@@ -163,20 +197,16 @@ fn edge(piece: &Piece, edge: Opening, left: &Ends, right: &Ends) -> Vec<Corner> 
             .map(|slit| notch(axis, slit)),
     });
     let plain = |point| Corner { point, notch: None };
-    let first = pick(&left.corners).or_else(|| splice_corner(piece, Way::Left, edge));
-    let end = pick(&right.corners).or_else(|| splice_corner(piece, Way::Right, edge));
+    let first = pick(&left.corners).or_else(|| cut_corner(piece, Way::Left, edge));
+    let end = pick(&right.corners).or_else(|| cut_corner(piece, Way::Right, edge));
     first.map(plain).into_iter().chain(inner).chain(end.map(plain)).collect()
 }
 
-/// Where a splice's cut meets an edge.
-fn splice_corner(piece: &Piece, way: Way, edge: Opening) -> Option<Point2> {
-    match &piece.closures[way as usize] {
-        Closure::Splice(cut) => {
-            let end = if edge == Opening::Bottom { cut.first() } else { cut.last() };
-            end.map(|vertex| vertex.point)
-        }
-        Closure::End(_) => None,
-    }
+/// Where the cut of a splice or held end meets an edge.
+fn cut_corner(piece: &Piece, way: Way, edge: Opening) -> Option<Point2> {
+    let cut = piece.closures[way as usize].cut()?;
+    let end = if edge == Opening::Bottom { cut.first() } else { cut.last() };
+    end.map(|vertex| vertex.point)
 }
 
 fn notch(axis: &FlatAxis, slit: &Slit) -> Notch {

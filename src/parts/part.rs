@@ -1,6 +1,6 @@
 //! A part: one flat shape to be cut, with its marks and its way back into space.
 
-use crate::geometry::{Point2, Region};
+use crate::geometry::{Point2, Region, Vector2};
 use crate::parts::connector::{Connector, Copy};
 use crate::parts::joint::Slit;
 use crate::parts::unfold::{FlatAxis, Fold};
@@ -64,6 +64,49 @@ impl Body {
             Self::Coupon => Vec::new(),
         }
     }
+
+    /// Where it ends on node axes: both ends of a fin, those of a strip that no splice made.
+    pub fn tips(&self) -> Vec<Tip> {
+        match self {
+            Self::Fin(fin) => tips(&fin.axes, fin.setbacks, [true; 2]),
+            Self::Strip(strip) => {
+                // Travel runs to the right: a splice at the left leads to the first node.
+                let node = |k: usize| strip.axes[k].node;
+                let last = strip.axes.len() - 1;
+                let own = |end: usize, k: usize| {
+                    strip.splices.iter().all(|splice| splice[1 - end] != node(k))
+                };
+                tips(&strip.axes, strip.setbacks, [own(0, 0), own(1, last)])
+            }
+            Self::Connector(_) | Self::Coupon => Vec::new(),
+        }
+    }
+}
+
+fn tips(axes: &[FlatAxis], setbacks: [f64; 2], own: [bool; 2]) -> Vec<Tip> {
+    let Some(last) = axes.len().checked_sub(1).filter(|&last| last > 0) else {
+        return Vec::new();
+    };
+    let ends = [(0, 1, 1.0), (last, last - 1, -1.0)];
+    let tips = ends.into_iter().zip(setbacks).zip(own).filter(|(_, own)| *own);
+    tips.map(|(((place, next, way), setback), _)| {
+        let axis = axes[place];
+        Tip { axis, inward: axis.right() * way, to: axes[next].node, setback }
+    })
+    .collect()
+}
+
+/// An end of a flat part on a node axis.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Tip {
+    /// The axis.
+    pub axis: FlatAxis,
+    /// Unit vector across the axis, into the part.
+    pub inward: Vector2,
+    /// The node at the other end of its fin.
+    pub to: usize,
+    /// How far the part stops from the axis, mm.
+    pub setback: f64,
 }
 
 /// A single fin, flat.
@@ -85,7 +128,7 @@ pub struct FinBody {
 pub struct ConnectorBody {
     /// What they are.
     pub connector: Connector,
-    /// Names of the fins, in the order of the connector's spokes.
+    /// Names of the parts whose fins it holds, in the order of the connector's spokes.
     pub fins: Vec<String>,
     /// Diameter of the rod through them, mm.
     pub rod: f64,
@@ -117,6 +160,9 @@ pub struct StripBody {
     pub closed: bool,
     /// Place in the order of assembly, from 0; pieces of one strip share it.
     pub rank: usize,
+    /// How far it stops from its first and last axis, mm; 0 where it reaches the axis or
+    /// was spliced.
+    pub setbacks: [f64; 2],
 }
 
 /// Something drawn on a part.

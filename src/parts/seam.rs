@@ -1,14 +1,16 @@
 //! Where closed strips are opened.
 
+use crate::parts::hold::Hubs;
 use crate::structure::{Strip, Structure};
 use crate::tolerance::SAME_FOLD;
 
 /// The nodes of each strip in order; a closed one begins and ends at its seam.
 ///
-/// The seam lies at the smallest fold. Where many are equal (rings of a dome) it goes to a
-/// node whose other strips cross fewest seams so far: at a seam a crossing strip has no
-/// joint, and none should lose all of its joints.
-pub(super) fn opened(structure: &Structure) -> Vec<Vec<usize>> {
+/// The seam lies on a hub if the strip has one, else at the smallest fold. Where many are
+/// equal (rings of a dome) it goes to a node where no other strip runs through, which discs
+/// would cut, then to one whose other strips cross fewest seams so far: none should lose all
+/// of its joints.
+pub(super) fn opened(structure: &Structure, hubs: &Hubs) -> Vec<Vec<usize>> {
     let strips = structure.strips();
     let mut through = vec![Vec::new(); structure.nodes().len()];
     for (index, strip) in strips.iter().enumerate() {
@@ -23,14 +25,20 @@ pub(super) fn opened(structure: &Structure) -> Vec<Vec<usize>> {
             chains.push(strip.nodes.clone());
             continue;
         }
-        let crossed = |place: &usize| -> usize {
-            through[strip.nodes[*place]].iter().map(|&other| seams[other]).sum()
+        let key = |place: &usize| {
+            let node = strip.nodes[*place];
+            let others = || through[node].iter().filter(|&&other| other != index);
+            let cut =
+                others().filter(|&&other| runs_through(&strips[other], node)).count();
+            let crossed: usize = others().map(|&other| seams[other]).sum();
+            (cut, crossed)
         };
-        let equal = smallest_folds(structure, strip);
+        let hub = strip.nodes.iter().position(|node| hubs.contains_key(node));
+        let equal = hub.map_or_else(|| smallest_folds(structure, strip), |hub| vec![hub]);
         // Successive rings of one numbering are opened well apart.
         let first = index * (equal.len() * 3 / 8).max(1) % equal.len().max(1);
         let turned = equal[first..].iter().chain(&equal[..first]);
-        let seam = turned.copied().min_by_key(crossed).unwrap_or_default();
+        let seam = turned.copied().min_by_key(key).unwrap_or_default();
         for &other in through[strip.nodes[seam]].iter().filter(|&&other| other != index) {
             seams[other] += 1;
         }
@@ -38,6 +46,12 @@ pub(super) fn opened(structure: &Structure) -> Vec<Vec<usize>> {
         chains.push((seam..=seam + count).map(|k| strip.nodes[k % count]).collect());
     }
     chains
+}
+
+/// Whether a strip does not end at one of its nodes.
+fn runs_through(strip: &Strip, node: usize) -> bool {
+    let ends = [strip.nodes.first(), strip.nodes.last()];
+    strip.closed || !ends.contains(&Some(&node))
 }
 
 /// The places of a closed strip whose folds are the smallest.

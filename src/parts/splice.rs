@@ -6,8 +6,10 @@
 
 use crate::geometry::offset::{offset_chain, rounded};
 use crate::geometry::{Point2, Vector2, Vertex, trig};
+use crate::parts::connector::held_end;
 use crate::parts::finding::PartFinding;
 use crate::parts::fit::Fit;
+use crate::parts::hold::Hubs;
 use crate::parts::joint::{End, Joints};
 use crate::parts::outline::{Closure, Piece, outline};
 use crate::parts::unfold::FlatStrip;
@@ -27,6 +29,8 @@ pub(super) struct Whole<'a> {
     pub joints: &'a Joints,
     /// What material and joint ask.
     pub fit: &'a Fit,
+    /// What holds ends that do not lap.
+    pub hubs: &'a Hubs,
 }
 
 /// The strip in as few pieces as `fits` allows (one, if it fits whole).
@@ -45,7 +49,9 @@ pub(super) fn pieces(
     if fits([None, None]) {
         return Ok(vec![whole.piece([None, None])]);
     }
-    let places: Vec<usize> = (0..last).filter(|&fin| whole.tail(fin).is_some()).collect();
+    let places: Vec<usize> = (0..last)
+        .filter(|&fin| !whole.is_held(fin) && whole.tail(fin).is_some())
+        .collect();
     let cuts = fewest(&places, &fits).ok_or_else(|| whole.no_place())?;
     let even = whole.evenly(&places, cuts.len());
     let ends = |cuts: &[usize]| {
@@ -101,21 +107,36 @@ impl Whole<'_> {
         let last = right.unwrap_or(self.strip.axes.len() - 1);
         let range = first..=last;
         let slits = self.joints.slits.iter().filter(|(place, _)| range.contains(place));
-        let closure = |cut: Option<usize>, end: End, gap: f64| {
+        let closure = |cut: Option<usize>, end: usize, gap: f64| {
             let splice = cut.and_then(|fin| self.dovetail(fin, gap));
-            splice.map_or(Closure::End(end), Closure::Splice)
+            splice.map_or_else(|| self.closed_by(end), Closure::Splice)
         };
-        let [start, finish] = self.joints.ends;
         Piece {
             axes: self.strip.axes[range.clone()].to_vec(),
             slits: slits.map(|(place, slit)| (place - first, *slit)).collect(),
-            closures: [
-                closure(left, start, self.fit.clearance),
-                closure(right, finish, 0.0),
-            ],
+            closures: [closure(left, 0, self.fit.clearance), closure(right, 1, 0.0)],
             beyond: [left, right.map(|fin| fin + 1)]
                 .map(|place| place.map(|place| self.strip.axes[place])),
         }
+    }
+
+    /// The strip's own left (0) or right (1) end.
+    fn closed_by(&self, end: usize) -> Closure {
+        let axes = &self.strip.axes;
+        let last = axes.len() - 1;
+        let [axis, next] = [[0, 1], [last, last - 1]][end].map(|place| &axes[place]);
+        match (self.joints.ends[end], self.hubs.get(&axis.node)) {
+            (End::Held(_), Some(hub)) => {
+                Closure::Held(held_end([axis, next], end, hub, self.fit.relief))
+            }
+            (end, _) => Closure::End(end),
+        }
+    }
+
+    /// Whether a fin stands in discs; it takes no splice.
+    fn is_held(&self, fin: usize) -> bool {
+        let [first, second] = self.joints.ends.map(|end| matches!(end, End::Held(_)));
+        first && fin == 0 || second && fin + 2 == self.strip.axes.len()
     }
 
     /// Free run of a fin between its slits: where it starts and ends along the fin.

@@ -6,12 +6,12 @@
 use crate::geometry::{Contour, Point2, Vector2, predicates, trig};
 use crate::proof::figures::{Worst, micro};
 use crate::proof::finding::{ProofFinding, Spot};
-use crate::proof::manifest::{Connector, Kind, Manifest};
+use crate::proof::manifest::{Connector, Kind, Manifest, Strip};
 use crate::proof::matching::Found;
 use crate::proof::sheets::Read;
 use crate::structure::Structure;
 use crate::tolerance::{ARC_SAGITTA_MM, SLOT_TURN_DEG};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// What is wrong with the connectors that were found; the worst angle goes into `worst`.
 pub(super) fn check(
@@ -25,7 +25,7 @@ pub(super) fn check(
         let place = &read.matching.places[found.place];
         let part = read.matching.shapes[place.shape].part;
         let Some(connector) = &part.connector else { continue };
-        let Some(needed) = known.angles(connector) else {
+        let Some(stands) = known.stands(connector) else {
             // Made again alone, without its fins, it is proved by its shape.
             if read.manifest.only.is_some() {
                 continue;
@@ -34,20 +34,23 @@ pub(super) fn check(
             findings.push(ProofFinding::BadList { spot });
             continue;
         };
-        let slots =
-            connector.slots.iter().map(|slot| (slot.fin.as_str(), slot.angle_deg));
-        let fins = connector.fins.iter().map(|(fin, angle)| (fin.as_str(), *angle));
-        let listed = slots.chain(fins).map(|(fin, angle)| {
-            let spot = Spot::file("job.json").part(&part.id).node(connector.node);
-            (spot, fin, angle)
+        let slots = connector.slots.iter().zip(&stands);
+        let slots = slots.map(|(slot, stand)| (stand, slot.angle_deg));
+        let fins = connector.fins.iter().filter_map(|(fin, angle)| {
+            let of_it = stands.iter().filter(|stand| stand.fin == fin);
+            Some((nearest(of_it, *angle, |stand| stand.angle_deg)?, *angle))
         });
-        let drawn = drawn(read, found, connector, &needed);
-        for (spot, fin, found_deg) in listed.chain(drawn) {
-            let needed_deg = needed[fin];
-            let off = (found_deg - needed_deg + 180.0).rem_euclid(360.0) - 180.0;
-            worst.slot_deg = worst.slot_deg.max(micro(off.abs()));
-            if off.abs() > SLOT_TURN_DEG {
-                let fin = fin.to_owned();
+        let listed = slots.chain(fins).map(|(stand, angle)| {
+            let spot = Spot::file("job.json").part(&part.id).node(connector.node);
+            (spot, stand, angle)
+        });
+        let drawn = drawn(read, found, connector, &stands);
+        for (spot, stand, found_deg) in listed.chain(drawn) {
+            let needed_deg = stand.angle_deg;
+            let off = apart(found_deg, needed_deg);
+            worst.slot_deg = worst.slot_deg.max(micro(off));
+            if off > SLOT_TURN_DEG {
+                let fin = stand.fin.to_owned();
                 findings.push(ProofFinding::SlotTurned {
                     spot,
                     fin,
@@ -60,13 +63,28 @@ pub(super) fn check(
     findings
 }
 
+/// How far two directions differ, degrees.
+fn apart(a: f64, b: f64) -> f64 {
+    ((a - b + 180.0).rem_euclid(360.0) - 180.0).abs()
+}
+
+/// The one whose direction is nearest.
+fn nearest<T>(
+    all: impl Iterator<Item = T>,
+    wanted_deg: f64,
+    angle_deg: impl Fn(&T) -> f64,
+) -> Option<T> {
+    let off = |one: &T| apart(angle_deg(one), wanted_deg);
+    all.min_by(|a, b| off(a).total_cmp(&off(b)))
+}
+
 /// The windows of a hub as drawn, each with the fin whose place it is nearest to.
 fn drawn<'a>(
     read: &Read,
     found: &Found,
-    connector: &'a Connector,
-    needed: &BTreeMap<&str, f64>,
-) -> Vec<(Spot, &'a str, f64)> {
+    connector: &Connector,
+    stands: &'a [Stand<'a>],
+) -> Vec<(Spot, &'a Stand<'a>, f64)> {
     if connector.kind != Kind::Hub {
         return Vec::new();
     }
@@ -78,13 +96,10 @@ fn drawn<'a>(
             Some((hole, angle))
         })
         .collect();
-    let slots = connector.slots.iter().filter_map(|slot| {
-        let wanted = *needed.get(slot.fin.as_str())?;
-        let off = |angle: f64| ((angle - wanted + 180.0).rem_euclid(360.0) - 180.0).abs();
-        let (hole, angle) =
-            windows.iter().min_by(|a, b| off(a.1).total_cmp(&off(b.1)))?;
+    let slots = stands.iter().filter_map(|stand| {
+        let (hole, angle) = nearest(windows.iter(), stand.angle_deg, |window| window.1)?;
         let spot = read.spot(found).node(connector.node).at(hole.vertices[0].point);
-        Some((spot, slot.fin.as_str(), *angle))
+        Some((spot, stand, *angle))
     });
     slots.collect()
 }
@@ -101,37 +116,51 @@ fn direction(hole: &Contour) -> Option<f64> {
     (!around_rod).then(|| trig::atan2(center.y, center.x).to_degrees())
 }
 
-/// What is known of fins by name.
-struct Known<'a> {
+/// A part in a connector.
+pub(super) struct Stand<'a> {
+    pub fin: &'a str,
+    /// The node at the other end of its fin.
+    pub to: usize,
+    /// Its direction in the structure from that of the first, degrees.
+    pub angle_deg: f64,
+}
+
+/// What is known of fins and strips by name.
+pub(super) struct Known<'a> {
     structure: &'a Structure,
-    nodes: BTreeMap<&'a str, [usize; 2]>,
+    strips: BTreeMap<&'a str, &'a Strip>,
 }
 
 impl<'a> Known<'a> {
-    fn new(manifest: &'a Manifest, structure: &'a Structure) -> Self {
-        let fins = manifest.parts.iter().filter_map(|part| {
-            let nodes = part.strip.as_ref()?.nodes.as_slice();
-            let [i, j] = *nodes else { return None };
-            Some((part.id.as_str(), [i, j]))
+    pub(super) fn new(manifest: &'a Manifest, structure: &'a Structure) -> Self {
+        let strips = manifest.parts.iter();
+        let strips = strips.filter_map(|part| {
+            let sound = |strip: &&Strip| strip.is_sound(structure.nodes().len());
+            Some((part.id.as_str(), part.strip.as_ref().filter(sound)?))
         });
-        Self { structure, nodes: fins.collect() }
+        Self { structure, strips: strips.collect() }
     }
 
-    /// Angle of each listed fin about its node in the structure, degrees from the first; `None`
-    /// if they are not the fins of that node, each once.
-    fn angles(&self, connector: &'a Connector) -> Option<BTreeMap<&'a str, f64>> {
+    /// What stands in the slots, in their order; `None` if that is not each fin of the node
+    /// once.
+    pub(super) fn stands(&self, connector: &'a Connector) -> Option<Vec<Stand<'a>>> {
         let arms = &self.structure.nodes().get(connector.node)?.arms;
-        let bearing = |fin: &str| {
-            let [i, j] = *self.nodes.get(fin)?;
-            let to = if i == connector.node { j } else { i };
-            arms.iter().find(|arm| arm.to == to).map(|arm| arm.angle)
-        };
-        let first = bearing(&connector.slots.first()?.fin)?;
-        let names = connector.slots.iter().map(|slot| slot.fin.as_str());
-        let angle = |fin: &'a str| Some((fin, (bearing(fin)? - first).to_degrees()));
-        let angles: BTreeMap<&str, f64> = names.map(angle).collect::<Option<_>>()?;
-        let known =
-            connector.fins.iter().all(|(fin, _)| angles.contains_key(fin.as_str()));
-        (angles.len() == arms.len() && known).then_some(angles)
+        let bearing =
+            |to: usize| arms.iter().find(|arm| arm.to == to).map(|arm| arm.angle);
+        let mut stands: Vec<Stand> = Vec::new();
+        for slot in &connector.slots {
+            let ends = self.strips.get(slot.fin.as_str())?.ends_at(connector.node);
+            // A ring ends at its seam twice.
+            let meant = ends.iter().find(|&&to| Some(to) == slot.to);
+            let to = *meant.or(ends.first())?;
+            let from = stands.first().map_or(bearing(to), |first| bearing(first.to))?;
+            let angle_deg = (bearing(to)? - from).to_degrees();
+            stands.push(Stand { fin: &slot.fin, to, angle_deg });
+        }
+        let all: BTreeSet<usize> = stands.iter().map(|stand| stand.to).collect();
+        let known = |fin: &str| stands.iter().any(|stand| stand.fin == fin);
+        let complete = all.len() == arms.len() && stands.len() == arms.len();
+        let listed = connector.fins.iter().all(|(fin, _)| known(fin));
+        (complete && listed).then_some(stands)
     }
 }

@@ -280,6 +280,15 @@ pub enum ProofFinding {
     )]
     NodeGap { spot: Spot, gap_mm: f64 },
 
+    #[error("{spot}: they would run {depth_mm:.2} mm into each other when assembled")]
+    #[diagnostic(
+        code(proof::parts_collide),
+        help(
+            "compare the heights in job.json and the cuts of both parts with a job as it was made"
+        )
+    )]
+    PartsCollide { spot: Spot, depth_mm: f64 },
+
     #[error("{spot}: the parts overlap")]
     #[diagnostic(code(proof::parts_overlap), help("move them apart, or nest again"))]
     PartsOverlap { spot: Spot },
@@ -346,6 +355,7 @@ impl ProofFinding {
             | Self::FinDiffers { spot, .. }
             | Self::SlotTurned { spot, .. }
             | Self::NodeGap { spot, .. }
+            | Self::PartsCollide { spot, .. }
             | Self::PartsOverlap { spot }
             | Self::PartsTooNear { spot, .. }
             | Self::PartInMargin { spot, .. }

@@ -78,6 +78,8 @@ pub(super) struct Stock {
 pub(super) struct Part {
     pub id: String,
     #[serde(default)]
+    pub kind: String,
+    #[serde(default)]
     pub label: String,
     #[serde(deserialize_with = "ring")]
     pub outline: Vec<Point2>,
@@ -100,6 +102,18 @@ pub(super) struct Connector {
     pub fins: Vec<(String, f64)>,
     #[serde(default)]
     pub slots: Vec<Slot>,
+    #[serde(default)]
+    pub thickness: f64,
+    #[serde(default)]
+    pub copies: Vec<Copy>,
+}
+
+/// One plate of a connector, placed across its axis.
+#[derive(Deserialize, Clone)]
+pub(super) struct Copy {
+    pub height: f64,
+    pub angle_deg: f64,
+    pub fins: Vec<String>,
 }
 
 #[derive(Deserialize, Clone, Copy, PartialEq, Eq)]
@@ -113,6 +127,9 @@ pub(super) enum Kind {
 #[derive(Deserialize, Clone)]
 pub(super) struct Slot {
     pub fin: String,
+    /// The node at the other end of the fin there.
+    #[serde(default)]
+    pub to: Option<usize>,
     pub angle_deg: f64,
 }
 
@@ -128,6 +145,9 @@ pub(super) struct Strip {
     pub slits: Vec<Slit>,
     #[serde(default)]
     pub splices: Vec<Splice>,
+    /// How far it stops from its first and last axis.
+    #[serde(default)]
+    pub setbacks: [f64; 2],
 }
 
 #[derive(Deserialize, Clone, Copy)]
@@ -232,6 +252,17 @@ impl Strip {
         let before = if place > 0 { Some(self.nodes[place - 1]) } else { across(0) };
         let after = if place < last { Some(self.nodes[place + 1]) } else { across(1) };
         [before, after]
+    }
+
+    /// The nodes at the other ends of the fins with which it ends at a node.
+    pub(super) fn ends_at(&self, node: usize) -> Vec<usize> {
+        let last = self.nodes.len() - 1;
+        let ends = [0, last].into_iter().filter(|&place| self.nodes[place] == node);
+        let inner = ends.filter_map(|place| match self.beside(place) {
+            [Some(inner), None] | [None, Some(inner)] => Some(inner),
+            _ => None,
+        });
+        inner.collect()
     }
 
     /// Whether the lists fit each other and the structure's count of nodes.

@@ -6,9 +6,11 @@
 //! their axes and sets them on the axes of `structure.json`. What a slit must be is worked
 //! out from the structure's angles and the sheet's thickness.
 //!
-//! It does not fold connectors (discs, hubs): parts without axes are proved as shapes only,
-//! [`Worst::parts`] counts them too. A bent strip is taken as sharply folded at its axes.
+//! Where connectors hold fins and strips, all parts as drawn in the DXF files are put together
+//! as plates of their thickness: none may run into another. A bent strip is taken as sharply
+//! folded at its axes.
 
+mod assembled;
 mod connectors;
 mod figures;
 mod files;
@@ -212,6 +214,8 @@ impl Group<'_> {
                 let turned = connectors::check(read, structure, &mut worst);
                 found.extend(turned);
                 if k == 0 {
+                    let hits = assembled::check(read, structure, &found);
+                    found.extend(hits);
                     (proof.nodes, proof.slits) = (refolded.nodes, refolded.slits);
                 }
             }

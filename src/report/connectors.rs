@@ -1,6 +1,5 @@
 //! What `job.json` says of single fins, connectors, rods and their assembly.
 
-use crate::job::Job;
 use crate::parts::{Body, Connector, ConnectorBody, Copy, FinBody, Part, Step};
 use crate::report::manifest::{axis, degrees, mm};
 use serde_json::{Value, json};
@@ -26,6 +25,7 @@ pub(super) fn connector(body: &ConnectorBody) -> Value {
     let slots = named().map(|(fin, spoke)| {
         json!({
             "fin": fin,
+            "to": spoke.to,
             "angle_deg": degrees(spoke.bearing),
             "width": mm(width),
             "length": mm(length),
@@ -50,18 +50,13 @@ pub(super) fn connector(body: &ConnectorBody) -> Value {
     })
 }
 
-/// One step per fin, lower disc, upper disc, or rod with eyes.
-pub(super) fn assembly(job: &Job) -> Vec<Value> {
-    let steps = job.steps.iter().enumerate();
-    let value = |(k, step): (usize, &Step)| {
-        let part = &job.parts[step.part];
-        let from = match (&part.body, step.copies) {
-            (Body::Connector(_), [1, 1]) => "below",
-            _ => "above",
-        };
-        json!({"step": k + 1, "part": part.id, "copies": step.copies, "from": from})
+/// A fin, a disc, or eyes with their rod; the lower disc of a hub comes from below.
+pub(super) fn step(part: &Part, step: &Step) -> Value {
+    let from = match (&part.body, step.copies) {
+        (Body::Connector(_), [1, 1]) => "below",
+        _ => "above",
     };
-    steps.map(value).collect()
+    json!({"copies": step.copies, "from": from})
 }
 
 /// Something that is bought.

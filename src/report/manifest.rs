@@ -6,7 +6,7 @@ use crate::job::Job;
 use crate::joint::Joint;
 use crate::nest::{NestedSheet, Stock};
 use crate::order::{Format, Order};
-use crate::parts::{self, Body, FlatAxis, Opening, Part, Slit, StripBody};
+use crate::parts::{self, Body, FlatAxis, Opening, Part, Slit, Step, StripBody};
 use crate::proof::Limits;
 use crate::report::connectors;
 use crate::sheets::{Operation, Path, Sheet};
@@ -62,10 +62,7 @@ pub fn manifest(job: &Job, source: &Source) -> Value {
         "parts": job.parts.iter().map(part).collect::<Vec<_>>(),
         "sheets": sheets(job),
         "order": job.order.as_ref().map(|order| ordered(job, order)),
-        "assembly": match job.steps.is_empty() {
-            true => assembly(job, source.template),
-            false => connectors::assembly(job),
-        },
+        "assembly": assembly(job, source.template),
         "hardware": connectors::bought(&job.parts),
         "totals": totals(job, source.template),
     })
@@ -141,6 +138,7 @@ fn strip(body: &StripBody) -> Value {
         "folds": folds.collect::<Vec<_>>(),
         "slits": body.slits.iter().map(|(s, partner)| slit(s, partner)).collect::<Vec<_>>(),
         "splices": body.splices.iter().map(|fin| json!({"fin": fin})).collect::<Vec<_>>(),
+        "setbacks": body.setbacks.map(mm),
     })
 }
 
@@ -227,27 +225,32 @@ fn ordered(job: &Job, order: &Order) -> Value {
     })
 }
 
-/// One step per part, in the order of ranks: each strip goes in from above, its slits open
-/// at the bottom onto the strips that stand already.
+/// The steps in order.
 fn assembly(job: &Job, template: &Template) -> Vec<Value> {
-    let strips = job.parts.iter().filter_map(|part| match &part.body {
-        Body::Strip(body) => Some((part, body)),
-        _ => None,
-    });
-    let step = |(k, (part, body)): (usize, (&Part, &StripBody))| {
-        let onto = body.slits.iter().filter(|(slit, _)| slit.from == Opening::Bottom);
-        let onto =
-            onto.map(|(slit, partner)| json!({"node": slit.node, "part": partner}));
-        json!({
-            "step": k + 1,
-            "part": part.id,
-            "rank": body.rank + 1,
-            "from": "above",
-            "onto": onto.collect::<Vec<_>>(),
-            "insertion": insertion(job, body, template),
-        })
+    let steps = job.steps.iter().enumerate();
+    let value = |(k, step): (usize, &Step)| {
+        let part = &job.parts[step.part];
+        let mut value = match &part.body {
+            Body::Strip(body) => strip_step(job, body, template),
+            _ => connectors::step(part, step),
+        };
+        value["step"] = json!(k + 1);
+        value["part"] = json!(part.id);
+        value
     };
-    strips.enumerate().map(step).collect()
+    steps.map(value).collect()
+}
+
+/// A strip goes in from above, its slits open at the bottom onto the strips that stand.
+fn strip_step(job: &Job, body: &StripBody, template: &Template) -> Value {
+    let onto = body.slits.iter().filter(|(slit, _)| slit.from == Opening::Bottom);
+    let onto = onto.map(|(slit, partner)| json!({"node": slit.node, "part": partner}));
+    json!({
+        "rank": body.rank + 1,
+        "from": "above",
+        "onto": onto.collect::<Vec<_>>(),
+        "insertion": insertion(job, body, template),
+    })
 }
 
 /// How a strip goes in, by numbers; `None` for one that goes onto nothing.

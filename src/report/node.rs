@@ -5,7 +5,7 @@
 
 use crate::geometry::{Point2, Point3, Vector2, Vector3, trig};
 use crate::job::Job;
-use crate::parts::{Body, ConnectorBody, FinBody, Part};
+use crate::parts::{Body, ConnectorBody, Part};
 use crate::structure::Structure;
 use crate::tolerance::ARC_SAGITTA_MM;
 use tiny_skia::{Pixmap, PremultipliedColorU8};
@@ -34,8 +34,7 @@ pub fn node_picture(job: &Job, node: usize, thickness: f64) -> Option<Vec<u8>> {
     let out = SHOWN * connector.1.connector.reach();
     let mut slabs = plates(structure, connector);
     for part in &job.parts {
-        let Body::Fin(fin) = &part.body else { continue };
-        slabs.extend(fin_slab(structure, (part, fin), node, (out, thickness)));
+        slabs.extend(ends(structure, part, node, (out, thickness)));
     }
     let view = View::new(&structure.nodes()[node].axis);
     let scale =
@@ -151,29 +150,31 @@ fn plates(structure: &Structure, (part, body): (&Part, &ConnectorBody)) -> Vec<S
     copies.collect()
 }
 
-/// A fin of the node, cut off `out` from the axis.
-fn fin_slab(
+/// The ends of a part on the node, cut off `out` from its axis.
+fn ends(
     structure: &Structure,
-    (part, fin): (&Part, &FinBody),
+    part: &Part,
     node: usize,
     (out, thickness): (f64, f64),
-) -> Option<Slab> {
-    let end = fin.nodes.iter().position(|&n| n == node)?;
-    let axis = &fin.axes[end];
-    let inward = if end == 0 { axis.right() } else { -axis.right() };
-    let ring = part.region.outline.flattened(ARC_SAGITTA_MM).into_iter().map(|p| {
-        let way = p - axis.foot;
-        Point2::new(way.dot(&inward).min(out), way.dot(&axis.up))
-    });
-    let along = structure.direction(node, fin.nodes[1 - end]);
-    Some(Slab {
-        origin: Vector3::zeros(),
-        along,
-        across: structure.nodes()[node].axis,
-        half: thickness / 2.0,
-        shape: Mask::new(&[ring.collect()]),
-        color: FIN,
+) -> Vec<Slab> {
+    let tips = part.body.tips().into_iter().filter(|tip| tip.axis.node == node);
+    let outline = part.region.outline.flattened(ARC_SAGITTA_MM);
+    tips.map(|tip| {
+        let ring = outline.iter().map(|p| {
+            let way = p - tip.axis.foot;
+            let s = way.dot(&tip.inward).clamp(0.0, out);
+            Point2::new(s, way.dot(&tip.axis.up))
+        });
+        Slab {
+            origin: Vector3::zeros(),
+            along: structure.direction(node, tip.to),
+            across: structure.nodes()[node].axis,
+            half: thickness / 2.0,
+            shape: Mask::new(&[ring.collect()]),
+            color: FIN,
+        }
     })
+    .collect()
 }
 
 /// What a ray meets first.

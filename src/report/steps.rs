@@ -1,7 +1,7 @@
 //! The steps of assembly in words.
 
 use crate::job::Job;
-use crate::parts::{Body, Connector, Opening, Part, insertion};
+use crate::parts::{Body, Connector, ConnectorBody, Opening, Part, insertion};
 use crate::template::Template;
 
 /// One part of a strip that goes in, or a connector with the fins that are new at it.
@@ -32,14 +32,6 @@ pub(super) fn standing(job: &Job, steps: &[Step], k: usize) -> Vec<usize> {
     before.filter(|part| all || onto(part)).collect()
 }
 
-/// The steps in order: one per strip, or one per connector.
-pub(super) fn steps(job: &Job, template: &Template) -> Vec<Step> {
-    if !job.steps.is_empty() {
-        return connected(job);
-    }
-    (0..job.parts.len()).filter_map(|part| step(job, part, template)).collect()
-}
-
 fn step(job: &Job, part: usize, template: &Template) -> Option<Step> {
     let Body::Strip(body) = &job.parts[part].body else { return None };
     let onto = body.slits.iter().filter(|(slit, _)| slit.from == Opening::Bottom);
@@ -65,27 +57,20 @@ fn step(job: &Job, part: usize, template: &Template) -> Option<Step> {
     Some(Step { parts: vec![part], onto, words, is_tight })
 }
 
-/// A step ends with the connector that gets its last fin; the fins that came since the step
-/// before go in with it.
-fn connected(job: &Job) -> Vec<Step> {
+/// The steps in order: one per strip and one per connector, which ends with the last of its
+/// plates; the fins that came since the step before go in with it.
+pub(super) fn steps(job: &Job, template: &Template) -> Vec<Step> {
     let mut steps = Vec::new();
     let mut new: Vec<usize> = Vec::new();
     for &crate::parts::Step { part, copies } in &job.steps {
         let made = &job.parts[part];
         match &made.body {
+            Body::Strip(_) => steps.extend(step(job, part, template)),
             Body::Fin(_) => new.push(part),
             Body::Connector(body) if copies[1] == made.quantity => {
-                let fins = new.iter().map(|&fin| job.parts[fin].id.clone());
-                let words = words(made, &fins.collect::<Vec<_>>(), &body.connector);
-                let stand = body
-                    .fins
-                    .iter()
-                    .filter(|id| new.iter().all(|&k| job.parts[k].id != **id));
-                let onto = stand.map(|id| (body.node(), id.clone())).collect();
-                let parts = std::iter::once(part).chain(new.drain(..)).collect();
-                steps.push(Step { parts, onto, words, is_tight: false });
+                steps.push(connected(job, part, body, std::mem::take(&mut new)));
             }
-            _ => {}
+            Body::Connector(_) | Body::Coupon => {}
         }
     }
     // Fins that no connector finishes stand by themselves.
@@ -96,6 +81,29 @@ fn connected(job: &Job) -> Vec<Step> {
         is_tight: false,
     });
     steps.into_iter().chain(loose).collect()
+}
+
+/// A connector with the fins that are new at it.
+fn connected(job: &Job, part: usize, body: &ConnectorBody, new: Vec<usize>) -> Step {
+    let made = &job.parts[part];
+    let fins: Vec<String> = new.iter().map(|&fin| job.parts[fin].id.clone()).collect();
+    let stand = body.fins.iter().filter(|id| !fins.contains(id));
+    let onto: Vec<(usize, String)> = stand.map(|id| (body.node(), id.clone())).collect();
+    let strips = job.has(|body| matches!(body, Body::Strip(_)));
+    let words = match strips {
+        true => held(&made.id),
+        false => words(made, &fins, &body.connector),
+    };
+    let parts = std::iter::once(part).chain(new).collect();
+    Step { parts, onto, words, is_tight: false }
+}
+
+/// Discs at the ends of strips.
+fn held(id: &str) -> String {
+    format!(
+        "Push one disc {id} on from below and one from above, letters up, over the ends as they \
+         are lettered, and bolt the rod."
+    )
 }
 
 fn words(connector: &Part, fins: &[String], kind: &Connector) -> String {

@@ -5,7 +5,6 @@
 //! [`Knot`]s. Notes: `docs/rigidity.md`.
 
 use crate::geometry::{Point3, Vector3};
-use crate::joint::Joint;
 use crate::structure::Structure;
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -84,33 +83,42 @@ impl Model {
         Self { bodies, knots, touches }
     }
 
-    /// A structure with a joint. `unheld` are ends of strips, as strip and node, that
-    /// nothing holds; they count as no incidence.
-    pub fn of(
+    /// A structure of strips. `unheld` are ends, as strip and node, that nothing holds; they
+    /// count as no incidence. On the nodes that `levers` names all strips end in a hub.
+    pub fn of_strips(
         structure: &Structure,
-        joint: Joint,
         unheld: &BTreeSet<(usize, usize)>,
+        levers: &BTreeMap<usize, f64>,
     ) -> Self {
-        match joint {
-            Joint::Lap => {
-                let (bodies, on) = strips(structure, unheld);
-                Self::joined(structure, bodies, on, Vec::new())
-            }
-            Joint::Hinge => Self::of_fins(structure, &BTreeMap::new()),
-            Joint::Hub => {
-                let all = 0..structure.nodes().len();
-                let lever = |node: usize| (node, structure.nodes()[node].height() / 2.0);
-                Self::of_fins(structure, &all.map(lever).collect())
-            }
-        }
+        let (bodies, on) = strips(structure, unheld);
+        let fins = structure.strips().iter().enumerate().flat_map(|(index, strip)| {
+            strip.fins().map(move |[i, j]| ([i.min(j), i.max(j)], index))
+        });
+        Self::in_hubs(structure, (bodies, on), &fins.collect(), levers)
     }
 
     /// A structure of single fins: in hubs on the nodes that `levers` names, on rods
     /// elsewhere. A lever, mm, is how far from the axis the slot holds its fin; it is never
     /// taken for more than a third of the fin.
     pub fn of_fins(structure: &Structure, levers: &BTreeMap<usize, f64>) -> Self {
-        let (mut bodies, mut on) = fins(structure);
-        let slots = add_hubs(structure, levers, &mut bodies, &mut on);
+        let fins = structure.fins().iter().enumerate().map(|(index, fin)| (*fin, index));
+        Self::in_hubs(structure, self::fins(structure), &fins.collect(), levers)
+    }
+
+    /// Bodies of which each carries some fins, in hubs on the nodes that have levers.
+    fn in_hubs(
+        structure: &Structure,
+        (mut bodies, mut on): (Vec<Body>, On),
+        carrier: &BTreeMap<[usize; 2], usize>,
+        levers: &BTreeMap<usize, f64>,
+    ) -> Self {
+        let mut slots = Vec::new();
+        for (&node, lever) in levers {
+            let hub = bodies.len();
+            bodies.push(Body::Hub(node));
+            on.entry(node).or_default().push(hub);
+            slots.extend(hub_slots(structure, (node, *lever), carrier, hub));
+        }
         Self::joined(structure, bodies, on, slots)
     }
 
@@ -218,35 +226,23 @@ fn fins(structure: &Structure) -> (Vec<Body>, On) {
     (structure.fins().iter().copied().map(Body::Fin).collect(), on)
 }
 
-/// A hub on every node that has a lever, and a slot in it for each fin.
-fn add_hubs(
+/// A slot in a hub for each fin of its node.
+fn hub_slots(
     structure: &Structure,
-    levers: &BTreeMap<usize, f64>,
-    bodies: &mut Vec<Body>,
-    on: &mut On,
+    (node, lever): (usize, f64),
+    carrier: &BTreeMap<[usize; 2], usize>,
+    hub: usize,
 ) -> Vec<Knot> {
-    let mut slots = Vec::new();
-    for (&node, fins) in on.iter_mut() {
-        let Some(&lever) = levers.get(&node) else { continue };
-        let hub = bodies.len();
-        let at = &structure.nodes()[node];
-        for &fin in fins.iter() {
-            let Body::Fin([i, j]) = bodies[fin] else { continue };
-            let to = if i == node { j } else { i };
-            let length = (structure.nodes()[to].position - at.position).norm();
-            let out = lever.min(length / 3.0);
-            let point = at.position + structure.direction(node, to) * out;
-            let bodies = vec![fin, hub];
-            slots.push(Knot {
-                node,
-                points: vec![point],
-                bodies,
-                held: false,
-                share: 0.0,
-            });
-        }
-        bodies.push(Body::Hub(node));
-        fins.push(hub);
-    }
-    slots
+    let at = &structure.nodes()[node];
+    let slot = |to: usize| {
+        let body = *carrier.get(&[node.min(to), node.max(to)])?;
+        let length = (structure.nodes()[to].position - at.position).norm();
+        let out = lever.min(length / 3.0);
+        let points = vec![at.position + structure.direction(node, to) * out];
+        Some(Knot { node, points, bodies: vec![body, hub], held: false, share: 0.0 })
+    };
+    let mut ends: Vec<usize> = at.arms.iter().map(|arm| arm.to).collect();
+    // In the order of the fins, whichever way the node looks at them.
+    ends.sort_unstable_by_key(|&to| [node.min(to), node.max(to)]);
+    ends.into_iter().filter_map(slot).collect()
 }

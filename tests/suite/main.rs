@@ -8,6 +8,7 @@ mod connectors;
 mod diagnostics;
 mod gate;
 mod golden;
+mod held;
 mod laws;
 mod nest;
 mod order;

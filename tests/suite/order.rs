@@ -79,7 +79,7 @@ fn single_parts_are_cut_lines_of_nominal_size_in_files_of_their_own() {
     let manifest = manifest(place.path());
     let parts = manifest["parts"].as_array().unwrap();
     assert_eq!(names(place.path()).len(), parts.len());
-    for part in parts {
+    for part in parts.iter().filter(|part| part["kind"] == "strip") {
         let id = part["id"].as_str().unwrap();
         let path = place.path().join(format!("job/order/{id}.dxf"));
         let drawing = dxf::Drawing::load(&mut &*fs::read(path).unwrap()).unwrap();

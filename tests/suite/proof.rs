@@ -443,7 +443,8 @@ fn a_coupon_is_proved_and_what_it_tells_moves_the_next_lines() {
         let manifest: Value = serde_json::from_slice(&manifest).unwrap();
         let nominal = |part: &Value| {
             let ring = part["outline"].as_array().unwrap().iter();
-            Contour::polygon(ring.map(point)).signed_area()
+            let copies = part["quantity"].as_f64().unwrap();
+            copies * Contour::polygon(ring.map(point)).signed_area()
         };
         let parts: f64 = manifest["parts"].as_array().unwrap().iter().map(nominal).sum();
         let outer = lines.iter().filter(|line| line.layer == "CUT_OUTER");
@@ -484,15 +485,12 @@ fn advice_names_a_scale_that_passes_and_what_binds_just_below() {
 #[test]
 fn an_end_that_reaches_into_the_plates_of_its_node_is_found() {
     let mut planting = Planting::of(job("five"));
-    let findings = planting.manifest["findings"].as_array().unwrap();
-    let unheld = findings.iter().filter(|f| f["code"] == "parts::strip_end_unheld");
     let places = planting.manifest["sheets"][0]["placements"].as_array().unwrap();
     let nth = |id: &Value| places.iter().position(|placement| placement["part"] == *id);
-    let (nth, node) = unheld
-        .filter_map(|f| {
-            Some((nth(&f["place"]["parts"][0])?, f["place"]["nodes"][0].clone()))
-        })
-        .next()
+    let strips = planting.manifest["parts"].as_array().unwrap().iter();
+    let (nth, node) = strips
+        .filter(|part| part["strip"]["setbacks"][0].as_f64().is_some_and(|s| s > 0.0))
+        .find_map(|part| Some((nth(&part["id"])?, part["strip"]["nodes"][0].clone())))
         .unwrap();
     let (id, _) = planting.placed(nth);
     let axes = planting.part(&id)["strip"]["axes"].as_array().unwrap();

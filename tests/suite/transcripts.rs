@@ -221,8 +221,8 @@ fn json_is_alone_on_standard_output_and_quiet_is_quiet() {
     let spoken = run(place.path(), &["make", "three", "-o", "j"]);
     assert!(spoken.stdout.is_empty());
     assert!(said(&spoken.stderr).contains("in j"), "{}", said(&spoken.stderr));
-    let listed = run(place.path(), &["make", "dome", "-v", "-o", "d"]);
-    let short = run(place.path(), &["make", "dome", "-o", "d"]);
+    let listed = run(place.path(), &["make", "three", "-v", "-o", "d"]);
+    let short = run(place.path(), &["make", "three", "-o", "d"]);
     assert!(listed.stderr.len() > short.stderr.len(), "-v says more");
 }
 

@@ -7,60 +7,63 @@
 //! clearance on both sides. A fin contains its axis, so this is exact; it is asked just
 //! inside both faces of a plate and in its middle.
 
-use crate::geometry::{Point2, Point3, Vector2, predicates, trig};
-use crate::parts::connector::finding::ConnectorFinding;
+use crate::geometry::{Point2, Point3, Vector2, Vector3, predicates, trig};
+use crate::parts::connector::built::{Built, Form, Hit, Plates, Role, Snug};
+use crate::parts::connector::copy::Copy;
 use crate::parts::connector::solid::Plate;
-use crate::parts::connector::{Connector, Copy};
-use crate::parts::fit::Fit;
-use crate::parts::part::{Body, ConnectorBody, FinBody, Part};
+use crate::parts::connector::spoke::shortest;
+use crate::parts::part::Tip;
 use crate::structure::Structure;
-use crate::tolerance::{ARC_SAGITTA_MM, PLATES_TOUCH_MM};
+use crate::tolerance::{NO_LENGTH_MM, PLATES_TOUCH_MM};
 use rstar::primitives::{GeomWithData, Rectangle};
 use rstar::{AABB, RTree};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// A plate of the assembly.
 struct Solid<'a> {
-    part: &'a Part,
+    part: &'a Built<'a>,
     plate: Plate,
-    /// Which copy it is, of a connector.
-    copy: Option<&'a Copy>,
+    what: What<'a>,
+}
+
+/// What a plate is.
+#[derive(Clone, Copy)]
+enum What<'a> {
+    /// A fin, by its nodes, and whether it may lap.
+    Fin { nodes: [usize; 2], is_strip: bool },
+    /// A copy of a connector.
+    Copy(&'a Plates<'a>, &'a Copy),
 }
 
 /// All pairs of parts that would run into each other.
-pub fn collisions(
-    structure: &Structure,
-    parts: &[Part],
-    fit: &Fit,
-) -> Vec<ConnectorFinding> {
+pub fn together(structure: &Structure, parts: &[Built], snug: &Snug) -> Vec<Hit> {
+    let joined = parts.iter().filter_map(|part| match &part.role {
+        Role::Plates(plates) => Some(plates.node),
+        Role::Fins { .. } => None,
+    });
+    let joined: BTreeSet<usize> = joined.collect();
     let solids: Vec<Solid> =
-        parts.iter().flat_map(|part| solids(structure, part, fit)).collect();
+        parts.iter().flat_map(|part| solids(structure, part, snug.thickness)).collect();
     let boxes = solids.iter().enumerate().map(|(k, solid)| {
         GeomWithData::new(Rectangle::from_aabb(around(&solid.plate)), k)
     });
     let tree: RTree<GeomWithData<Rectangle<[f64; 3]>, usize>> =
         RTree::bulk_load(boxes.collect());
-    let mut found = Vec::new();
+    let mut hits = Vec::new();
     for (k, solid) in solids.iter().enumerate() {
         let near = tree.locate_in_envelope_intersecting(around(&solid.plate));
         let mut near: Vec<usize> =
             near.map(|entry| entry.data).filter(|&n| n > k).collect();
         near.sort_unstable();
         let others = near.into_iter().map(|n| &solids[n]);
-        let strangers =
-            others.filter(|other| !holds(solid, other) && !holds(other, solid));
-        found.extend(strangers.filter_map(|other| collision(solid, other)));
+        let strangers = others.filter(|other| !may_touch(solid, other, &joined));
+        hits.extend(strangers.filter_map(|other| collision(solid, other)));
     }
-    found.extend(in_cuts(structure, parts, fit));
+    hits.extend(in_cuts(structure, parts, snug));
     // The plates of two nodes meet more than once; once is enough to say.
     let mut told = BTreeSet::new();
-    found.retain(|finding| match finding {
-        ConnectorFinding::Collide { first, second, .. } => {
-            told.insert((first.clone(), second.clone()))
-        }
-        _ => true,
-    });
-    found
+    hits.retain(|hit| told.insert(hit.parts.clone()));
+    hits
 }
 
 fn around(plate: &Plate) -> AABB<[f64; 3]> {
@@ -70,25 +73,41 @@ fn around(plate: &Plate) -> AABB<[f64; 3]> {
 
 /// Whether a plate holds a fin.
 fn holds(plate: &Solid, fin: &Solid) -> bool {
-    let (Body::Connector(body), Some(copy)) = (&plate.part.body, plate.copy) else {
+    let (What::Copy(plates, copy), What::Fin { nodes, .. }) = (plate.what, fin.what)
+    else {
         return false;
     };
-    copy.holds.iter().any(|&place| body.fins[place] == fin.part.id)
+    copy.holds.iter().any(|&place| {
+        let (name, to) = plates.stands[place];
+        name == fin.part.name && [plates.node, to].iter().all(|node| nodes.contains(node))
+    })
 }
 
-fn collision(a: &Solid, b: &Solid) -> Option<ConnectorFinding> {
+/// Whether two plates may touch: fins of strips meet on axes where no plates part them.
+fn may_touch(a: &Solid, b: &Solid, joined: &BTreeSet<usize>) -> bool {
+    let (
+        What::Fin { nodes: first, is_strip },
+        What::Fin { nodes: second, is_strip: other },
+    ) = (a.what, b.what)
+    else {
+        return holds(a, b) || holds(b, a);
+    };
+    let shared = first.into_iter().find(|node| second.contains(node));
+    (is_strip || other) && shared.is_none_or(|node| !joined.contains(&node))
+}
+
+fn collision(a: &Solid, b: &Solid) -> Option<Hit> {
     let depth_mm = a.plate.overlap(&b.plate);
-    (depth_mm > PLATES_TOUCH_MM).then(|| ConnectorFinding::Collide {
-        first: a.part.id.clone(),
-        second: b.part.id.clone(),
+    (depth_mm > PLATES_TOUCH_MM).then(|| Hit {
+        parts: [a, b].map(|solid| solid.part.name.to_owned()),
         nodes: shared(a.part, b.part),
         depth_mm,
     })
 }
 
 /// Nodes that both parts reach; all of theirs if there is none.
-fn shared(a: &Part, b: &Part) -> Vec<usize> {
-    let (mut a, b) = (a.body.nodes(), b.body.nodes());
+fn shared(a: &Built, b: &Built) -> Vec<usize> {
+    let (mut a, b) = (a.nodes(), b.nodes());
     if a.iter().any(|node| b.contains(node)) {
         a.retain(|node| b.contains(node));
         a
@@ -97,73 +116,88 @@ fn shared(a: &Part, b: &Part) -> Vec<usize> {
     }
 }
 
-fn solids<'a>(structure: &Structure, part: &'a Part, fit: &Fit) -> Vec<Solid<'a>> {
-    match &part.body {
-        Body::Fin(fin) => {
-            vec![Solid { part, plate: fin_plate(structure, fin, fit), copy: None }]
-        }
-        Body::Connector(body) => {
-            let solid = |copy: &'a Copy| Solid {
-                part,
-                plate: connector_plate(structure, body, copy),
-                copy: Some(copy),
+fn solids<'a>(
+    structure: &Structure,
+    part: &'a Built<'a>,
+    thickness: f64,
+) -> Vec<Solid<'a>> {
+    let (nodes, tips, is_strip) = match &part.role {
+        Role::Fins { nodes, tips, is_strip } => (nodes, tips, *is_strip),
+        Role::Plates(plates) => {
+            let solid = |copy: &'a Copy| {
+                let plate = connector_plate(structure, plates, copy);
+                Solid { part, plate, what: What::Copy(plates, copy) }
             };
-            body.copies.iter().map(solid).collect()
+            return plates.copies.iter().map(solid).collect();
         }
-        Body::Strip(_) | Body::Coupon => Vec::new(),
-    }
+    };
+    let setback = |node: usize, to: usize| {
+        let tip = tips.iter().find(|tip| (tip.axis.node, tip.to) == (node, to));
+        tip.map_or(0.0, |tip| tip.setback)
+    };
+    let solid = |fin: &[usize]| {
+        let nodes = [fin[0], fin[1]];
+        let setbacks = [setback(nodes[0], nodes[1]), setback(nodes[1], nodes[0])];
+        let plate = fin_plate(structure, nodes, setbacks, thickness)?;
+        Some(Solid { part, plate, what: What::Fin { nodes, is_strip } })
+    };
+    nodes.windows(2).filter_map(solid).collect()
 }
 
 /// A plate without its cuts.
-fn connector_plate(structure: &Structure, body: &ConnectorBody, copy: &Copy) -> Plate {
-    let node = &structure.nodes()[body.node()];
+fn connector_plate(structure: &Structure, plates: &Plates, copy: &Copy) -> Plate {
+    let node = &structure.nodes()[plates.node];
     let center = node.position + node.axis * copy.height;
-    let frame = Frame::new(structure, body).map(|frame| frame.turned(copy.bearing));
-    let thickness = body.connector.thickness();
-    match (&body.connector, frame) {
-        (Connector::Hinge(hinge), Some(frame)) => {
+    let frame = Frame::new(structure, plates).map(|frame| frame.turned(copy.bearing));
+    match (plates.form, frame) {
+        (Form::Eye { radius, tail }, Some(frame)) => {
             let side = frame.axis.cross(&frame.first);
-            let eye = Plate::arc(center, [-frame.first, side], hinge.radius);
-            let tail = [1.0, -1.0].map(|way| {
-                center + frame.first * hinge.tail() + side * (way * hinge.radius)
-            });
+            let eye = Plate::arc(center, [-frame.first, side], radius);
+            let tail = [1.0, -1.0]
+                .map(|way| center + frame.first * tail + side * (way * radius));
             let outline: Vec<Point3> = eye.into_iter().chain(tail).collect();
-            Plate::new(&outline, frame.axis, thickness)
+            Plate::new(&outline, frame.axis, plates.thickness)
         }
-        (connector, _) => Plate::round(center, node.axis, connector.radius(), thickness),
+        (Form::Eye { radius, .. } | Form::Disc { radius }, _) => {
+            Plate::round(center, node.axis, radius, plates.thickness)
+        }
     }
 }
 
-/// The fin cut back at both ends, without its cuts.
-fn fin_plate(structure: &Structure, fin: &FinBody, fit: &Fit) -> Plate {
-    let [i, j] = fin.nodes;
-    let corners = structure.corners(fin.nodes);
-    let [a, b, c, d] = corners;
+/// The fin cut back at both ends, without its cuts; `None` for one twisted so that its axes
+/// span no plane, which is said elsewhere.
+fn fin_plate(
+    structure: &Structure,
+    [i, j]: [usize; 2],
+    [first, second]: [f64; 2],
+    thickness: f64,
+) -> Option<Plate> {
+    let [a, b, c, d] = structure.corners([i, j]);
     let cut = |from: Point3, to: Point3, at: usize, toward: usize, setback: f64| {
         let run = (to - from).dot(&structure.direction(at, toward));
         from + (to - from) * (setback / run)
     };
-    let [first, second] = fin.setbacks;
     let outline = [
         cut(a, b, i, j, first),
         cut(b, a, j, i, second),
         cut(c, d, j, i, second),
         cut(d, c, i, j, first),
     ];
-    Plate::new(&outline, (c - a).cross(&(d - b)).normalize(), fit.thickness)
+    let normal = (c - a).cross(&(d - b)).try_normalize(NO_LENGTH_MM)?;
+    let is_flat = outline.iter().all(|p| p.coords.iter().all(|x| x.is_finite()));
+    is_flat.then(|| Plate::new(&outline, normal, thickness))
 }
 
-/// Directions at a node: its axis, and across it that of the connector's first fin.
+/// Directions at a node: its axis, and across it that of what stands first.
 struct Frame {
-    axis: crate::geometry::Vector3,
-    first: crate::geometry::Vector3,
+    axis: Vector3,
+    first: Vector3,
 }
 
 impl Frame {
-    fn new(structure: &Structure, body: &ConnectorBody) -> Option<Self> {
-        let node = body.node();
-        let first = structure.direction(node, body.connector.around().spokes.first()?.to);
-        Some(Self { axis: structure.nodes()[node].axis, first })
+    fn new(structure: &Structure, plates: &Plates) -> Option<Self> {
+        let first = structure.direction(plates.node, plates.stands.first()?.1);
+        Some(Self { axis: structure.nodes()[plates.node].axis, first })
     }
 
     fn turned(self, bearing: f64) -> Self {
@@ -174,57 +208,60 @@ impl Frame {
 }
 
 /// Fins that do not pass through the cuts of the plates that hold them.
-fn in_cuts(structure: &Structure, parts: &[Part], fit: &Fit) -> Vec<ConnectorFinding> {
-    let fins: BTreeMap<&str, &Part> =
-        parts.iter().map(|part| (part.id.as_str(), part)).collect();
-    let mut found = Vec::new();
+fn in_cuts(structure: &Structure, parts: &[Built], snug: &Snug) -> Vec<Hit> {
+    let known: BTreeMap<&str, &Built> =
+        parts.iter().map(|part| (part.name, part)).collect();
+    let mut hits = Vec::new();
     for part in parts {
-        let Body::Connector(body) = &part.body else { continue };
-        for copy in &body.copies {
-            let held = copy
-                .holds
-                .iter()
-                .filter_map(|&place| fins.get(body.fins[place].as_str()).copied());
-            let cut = Cut { structure, part, body, copy, fit };
-            found.extend(held.filter(|fin| cut.stuck(fin)).map(|fin| {
-                ConnectorFinding::Collide {
-                    first: fin.id.clone(),
-                    second: part.id.clone(),
-                    nodes: vec![body.node()],
-                    depth_mm: fit.thickness,
-                }
+        let Role::Plates(plates) = &part.role else { continue };
+        for copy in &plates.copies {
+            let cut = Cut { structure, part, plates, copy, snug };
+            let stuck = copy.holds.iter().filter_map(|&place| {
+                let fin = known.get(plates.stands[place].0)?;
+                cut.stuck(fin, place).then(|| fin.name.to_owned())
+            });
+            hits.extend(stuck.map(|first| Hit {
+                parts: [first, part.name.to_owned()],
+                nodes: vec![plates.node],
+                depth_mm: snug.thickness,
             }));
         }
     }
-    found
+    hits
 }
 
 /// One plate and what it is cut from.
 struct Cut<'a> {
     structure: &'a Structure,
-    part: &'a Part,
-    body: &'a ConnectorBody,
+    part: &'a Built<'a>,
+    plates: &'a Plates<'a>,
     copy: &'a Copy,
-    fit: &'a Fit,
+    snug: &'a Snug,
 }
 
 /// Just inside a plate's face, as a share of its thickness: edges may lie in the face itself.
 const SKIN: f64 = 0.01;
 
 impl Cut<'_> {
-    /// Whether a fin meets the material of the plate, or comes nearer than the clearance.
-    fn stuck(&self, fin: &Part) -> bool {
-        let Body::Fin(body) = &fin.body else { return false };
-        let node = self.body.node();
-        let Some(end) = body.nodes.iter().position(|&n| n == node) else { return true };
-        let Some(out) = self.bearing(body.nodes[1 - end]) else { return true };
-        let outline = fin.region.outline.flattened(ARC_SAGITTA_MM);
-        let (thickness, clearance) = (self.fit.thickness, self.fit.clearance);
+    /// Whether what stands at a place meets the material of the plate, or comes nearer than
+    /// the clearance.
+    fn stuck(&self, part: &Built, place: usize) -> bool {
+        let (node, to) = (self.plates.node, self.plates.stands[place].1);
+        let Role::Fins { tips, .. } = &part.role else { return true };
+        let tip = tips.iter().find(|tip| (tip.axis.node, tip.to) == (node, to));
+        let (Some(tip), Some(out)) = (tip, self.bearing(to)) else { return true };
+        let Snug { thickness, clearance, relief } = *self.snug;
         let thickness = thickness - PLATES_TOUCH_MM;
-        let relief = self.fit.relief;
+        // A strip folds at its next axis; what lies behind is not in this plane.
+        let length = shortest(self.structure, [node, to]);
         [SKIN - 0.5, 0.0, 0.5 - SKIN].into_iter().any(|share| {
-            let height = self.copy.height + share * self.body.connector.thickness();
-            spans(body, end, &outline, height).into_iter().any(|[from, to]| {
+            let height = self.copy.height + share * self.plates.thickness;
+            let spans = part.rings.iter().flat_map(|ring| spans(tip, ring, height));
+            let own = spans.filter(|[from, _]| *from < length);
+            let inside = own.map(|[from, to]| {
+                [from + PLATES_TOUCH_MM, to.min(length) - PLATES_TOUCH_MM]
+            });
+            inside.filter(|[from, to]| from < to).any(|[from, to]| {
                 // Into rounded corners the plate itself reaches, but not its clearance.
                 self.meets(out, [from, to], thickness + clearance.min(0.0))
                     || from + relief < to - relief
@@ -239,8 +276,8 @@ impl Cut<'_> {
 
     /// Direction of a fin on the plate, from the structure.
     fn bearing(&self, to: usize) -> Option<Vector2> {
-        let frame = Frame::new(self.structure, self.body)?.turned(self.copy.bearing);
-        let out = self.structure.direction(self.body.node(), to);
+        let frame = Frame::new(self.structure, self.plates)?.turned(self.copy.bearing);
+        let out = self.structure.direction(self.plates.node, to);
         let side = frame.axis.cross(&frame.first);
         Some(Vector2::new(out.dot(&frame.first), out.dot(&side)))
     }
@@ -250,9 +287,7 @@ impl Cut<'_> {
         let left = Vector2::new(-out.y, out.x) * (thickness / 2.0);
         let at = |s: f64, side: f64| Point2::from(out * s + left * side);
         let bar = [at(from, -1.0), at(to, -1.0), at(to, 1.0), at(from, 1.0)];
-        let contours = self.part.region.contours();
-        let rings: Vec<Vec<Point2>> =
-            contours.map(|c| c.flattened(ARC_SAGITTA_MM)).collect();
+        let rings = &self.part.rings;
         let crosses = rings.iter().any(|ring| {
             let sides = ring.iter().zip(ring.iter().cycle().skip(1));
             sides.into_iter().any(|(a, b)| {
@@ -267,17 +302,15 @@ impl Cut<'_> {
     }
 }
 
-/// Where a fin has material at a height along the axis of one end: from and to, by the
+/// Where a part has material at a height along the axis of an end: from and to, by the
 /// distance from that axis.
-fn spans(fin: &FinBody, end: usize, outline: &[Point2], height: f64) -> Vec<[f64; 2]> {
-    let axis = &fin.axes[end];
-    let inward = if end == 0 { axis.right() } else { -axis.right() };
+fn spans(tip: &Tip, ring: &[Point2], height: f64) -> Vec<[f64; 2]> {
     let local = |p: &Point2| {
-        let way = p - axis.foot;
-        [way.dot(&inward), way.dot(&axis.up) - height]
+        let way = p - tip.axis.foot;
+        [way.dot(&tip.inward), way.dot(&tip.axis.up) - height]
     };
-    let next = outline.iter().cycle().skip(1);
-    let mut met: Vec<f64> = outline
+    let next = ring.iter().cycle().skip(1);
+    let mut met: Vec<f64> = ring
         .iter()
         .zip(next)
         .filter_map(|(p, q)| {
@@ -286,5 +319,7 @@ fn spans(fin: &FinBody, end: usize, outline: &[Point2], height: f64) -> Vec<[f64
         })
         .collect();
     met.sort_by(f64::total_cmp);
-    met.chunks_exact(2).map(|pair| [pair[0], pair[1]]).collect()
+    let pairs = met.chunks_exact(2).map(|pair| [pair[0], pair[1]]);
+    // A strip that winds back may have material before the axis.
+    pairs.filter(|[_, to]| *to > 0.0).collect()
 }

@@ -73,6 +73,9 @@ fn window(hub: &Hub, fit: &Fit, bearing: f64) -> Contour {
         Vertex::arc(ray.at(near - radius, half - radius), bulge),
     ];
     without_doubles(&mut vertices);
+    if radius <= 0.0 {
+        vertices.pop();
+    }
     Contour { vertices }
 }
 

@@ -1,16 +1,16 @@
 //! A single fin: the planar quad, cut back at both ends, with notches for the rings of discs
 //! or slits for eye plates.
 
-use crate::geometry::{Contour, Point2, Vector2, Vertex, trig};
-use crate::parts::connector::{Connector, Hinge, Hub, Spoke};
+use crate::geometry::{Contour, Vertex};
+use crate::parts::connector::tongue::{EndFrame, quarter, tongue, writable};
+use crate::parts::connector::{Connector, Hinge, Spoke};
 use crate::parts::fit::Fit;
 use crate::parts::joint::End;
 use crate::parts::mark::{Cell, Wish};
 use crate::parts::outline::{Closure, Piece, reversed, without_doubles};
 use crate::parts::part::{Mark, MarkKind};
-use crate::parts::unfold::{FlatAxis, FlatStrip};
+use crate::parts::unfold::FlatStrip;
 use std::collections::BTreeMap;
-use std::f64::consts::FRAC_PI_8;
 
 /// A fin between its two connectors.
 pub(super) struct Seated<'a> {
@@ -20,18 +20,6 @@ pub(super) struct Seated<'a> {
     pub ends: [Option<(&'a Connector, &'a Spoke)>; 2],
     /// What the material asks.
     pub fit: &'a Fit,
-}
-
-/// One end of a fin in its own frame: `s` from the axis into the fin, `z` along the axis.
-struct EndFrame<'a> {
-    axis: &'a FlatAxis,
-    inward: Vector2,
-}
-
-impl EndFrame<'_> {
-    fn at(&self, s: f64, z: f64) -> Point2 {
-        self.axis.foot + self.inward * s + self.axis.up * z
-    }
 }
 
 impl Seated<'_> {
@@ -46,67 +34,26 @@ impl Seated<'_> {
 
     /// One end from the bottom edge over the end edge to the top edge, with its cuts.
     fn end(&self, end: usize) -> Vec<Vertex> {
-        let frame = self.frame(end);
-        // At the right end the way up runs counter-clockwise; the left is turned round.
-        let turn = if end == 1 { 1.0 } else { -1.0 };
-        let axis = frame.axis;
-        match self.ends[end] {
-            None => [axis.bottom(), axis.top()].map(Vertex::line).to_vec(),
-            Some((Connector::Hub(hub), spoke)) => {
-                let mut chain = self.notch(&frame, (hub, spoke), false, turn);
-                chain.extend(reversed(&self.notch(&frame, (hub, spoke), true, turn)));
-                chain
-            }
-            Some((Connector::Hinge(hinge), spoke)) => {
-                self.slits(&frame, (hinge, spoke), turn)
-            }
+        let axis = &self.flat.axes[end];
+        let Some((connector, spoke)) = self.ends[end] else {
+            return [axis.bottom(), axis.top()].map(Vertex::line).to_vec();
+        };
+        let frame = EndFrame::new(axis, end, spoke.rise);
+        match connector {
+            Connector::Hub(hub) => tongue(&frame, hub, self.fit.relief),
+            Connector::Hinge(hinge) => self.slits(&frame, (hinge, spoke)),
         }
     }
 
-    /// A notch for a ring and the corner beyond it, toward the axis.
-    fn notch(
-        &self,
-        frame: &EndFrame,
-        (hub, spoke): (&Hub, &Spoke),
-        top: bool,
-        turn: f64,
-    ) -> Vec<Vertex> {
-        let edge = usize::from(top);
-        let on_edge = |s: f64| frame.at(s, edge_height(frame.axis, spoke, top, s));
-        let [near, far] = hub.notch;
-        let floor = hub.between()[edge];
-        let radius = self.fit.relief.min((far - near) / 2.0).max(0.0);
-        let beyond = if top { floor - radius } else { floor + radius };
-        // The same corner on the other edge turns the other way; so does a chain reversed.
-        let turn = if top { turn } else { -turn };
-        let bulge = turn * quarter(radius);
-        vec![
-            Vertex::line(on_edge(far)),
-            Vertex::arc(frame.at(far, floor), bulge),
-            Vertex::line(frame.at(far - radius, beyond)),
-            Vertex::arc(frame.at(near + radius, beyond), bulge),
-            Vertex::line(frame.at(near, floor)),
-            Vertex::line(on_edge(near)),
-            Vertex::line(on_edge(hub.setback)),
-        ]
-    }
-
     /// The end edge with its slits for eye plates, from below.
-    fn slits(
-        &self,
-        frame: &EndFrame,
-        (hinge, spoke): (&Hinge, &Spoke),
-        turn: f64,
-    ) -> Vec<Vertex> {
+    fn slits(&self, frame: &EndFrame, (hinge, spoke): (&Hinge, &Spoke)) -> Vec<Vertex> {
         let start = hinge.setback;
-        let corner = |top| {
-            Vertex::line(frame.at(start, edge_height(frame.axis, spoke, top, start)))
-        };
+        let corner = |edge| Vertex::line(frame.on_edge(start, edge));
         let place = hinge.around.spokes.iter().position(|other| other.fin == spoke.fin);
         let levels = place.map_or([0.0; 2], |place| hinge.levels[place]);
         let half = (hinge.thickness + self.fit.clearance) / 2.0;
         let radius = self.fit.relief.min(half).max(0.0);
-        let (floor, bulge) = (start + hinge.lap, -turn * quarter(radius));
+        let (floor, bulge) = (start + hinge.lap, -frame.turn() * quarter(radius));
         let slits = levels.into_iter().flat_map(|level| {
             let (low, high) = (level - half, level + half);
             [
@@ -118,13 +65,7 @@ impl Seated<'_> {
                 Vertex::line(frame.at(start, high)),
             ]
         });
-        std::iter::once(corner(false)).chain(slits).chain([corner(true)]).collect()
-    }
-
-    fn frame(&self, end: usize) -> EndFrame<'_> {
-        let axis = &self.flat.axes[end];
-        let inward = if end == 0 { axis.right() } else { -axis.right() };
-        EndFrame { axis, inward }
+        std::iter::once(corner(0)).chain(slits).chain([corner(1)]).collect()
     }
 
     /// Its name with an arrow up, and at both ends the name of the node; the second value
@@ -155,12 +96,9 @@ impl Seated<'_> {
                 Connector::Hub(hub) => hub.setback,
             });
             let Connector::Hub(hub) = connector else { continue };
-            let [low, high] = hub.between();
             // The line to the other end must stay clear of the notch however it slopes.
-            let spare =
-                |edge: usize| self.fit.relief + spoke.rise[edge].abs() * hub.radius;
-            axes[end].below = -(low + spare(0));
-            axes[end].above = high - spare(1);
+            let [low, high] = writable(hub, spoke, self.fit.relief);
+            (axes[end].below, axes[end].above) = (-low, high);
         }
         Piece {
             axes,
@@ -169,15 +107,4 @@ impl Seated<'_> {
             beyond: [None, None],
         }
     }
-}
-
-/// Height of a fin's edge at `s` from the axis.
-fn edge_height(axis: &FlatAxis, spoke: &Spoke, top: bool, s: f64) -> f64 {
-    let start = if top { axis.above } else { -axis.below };
-    start + spoke.rise[usize::from(top)] * s
-}
-
-/// Bulge of a quarter circle, if there is one.
-fn quarter(radius: f64) -> f64 {
-    if radius > 0.0 { trig::tan(FRAC_PI_8) } else { 0.0 }
 }

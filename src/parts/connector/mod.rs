@@ -1,4 +1,4 @@
-//! Single fins and the connectors that hold them on the node axes.
+//! Single fins, and the connectors that hold them and the ends of strips on the node axes.
 //!
 //! A *hub* is a pair of slotted discs: one shape, pushed onto the fins of a node along its
 //! axis, one from below and one from above, a rod through both. A window crosses its fin
@@ -7,6 +7,7 @@
 //! (fabrication notes §4.5). A node with one fin needs neither.
 
 mod assembly;
+mod built;
 mod copy;
 mod disc;
 mod fin;
@@ -17,25 +18,29 @@ mod room;
 mod seat;
 mod solid;
 mod spoke;
+mod tongue;
 
-pub use assembly::collisions;
+pub use assembly::together;
+pub use built::{Built, Form, Hit, Plates, Role, Snug, collisions};
 pub use copy::{Copy, copies};
 pub use finding::ConnectorFinding;
 pub use hinge::Hinge;
-pub use order::Step;
+pub use order::{Step, steps};
+pub(super) use room::hub_lacks;
 pub use seat::{Hub, inner_radius};
 pub use spoke::{Around, Spoke};
+pub(super) use tongue::held_end;
 
 use crate::diagnostic::{Finding, passes};
 use crate::geometry::{Contour, Region};
 use crate::parts::fit::Fit;
+use crate::parts::hold::Plan;
 use crate::parts::part::{Body, ConnectorBody, FinBody, Part};
 use crate::parts::unfold::{FlatStrip, unfold};
-use crate::parts::{Making, crossing_outline};
+use crate::parts::{Made, Making, crossing_outline};
 use crate::structure::Structure;
 use crate::tolerance::CONGRUENT_MM;
 use fin::Seated;
-use order::steps;
 use std::collections::BTreeMap;
 
 /// What holds the fins of a node.
@@ -89,45 +94,85 @@ impl Connector {
     }
 }
 
-/// Single fins and connectors as parts.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Connected {
-    /// The fins in the order of the structure, then the connectors in the order of nodes.
-    pub parts: Vec<Part>,
-    /// In which order they go together.
-    pub steps: Vec<Step>,
-    /// Everything found on the way.
-    pub findings: Vec<Finding>,
-}
-
 /// Makes the parts of a structure of single fins: hubs on the nodes that `is_hub` names,
 /// hinges on all others.
 pub fn connected(
     structure: &Structure,
     is_hub: &dyn Fn(usize) -> bool,
     making: &Making,
-) -> Connected {
+) -> Made {
     let fins = structure.fins();
     let connectors = connectors(structure, is_hub, making.fit);
     let names: Vec<String> =
         (0..fins.len()).map(|fin| fin_name(fin, fins.len())).collect();
-    let mut facts = room::findings(structure, making, &connectors, &names);
-    let (mut parts, mut unlettered) = fin_parts(structure, making, &connectors, &names);
-    for connector in connectors.iter().flatten() {
-        let (part, missing) = plate(connector, making, &names);
-        unlettered.push((part.id.clone(), missing));
-        parts.push(part);
+    let (mut parts, unlettered) = fin_parts(structure, making, &connectors, &names);
+    let crossing = parts.iter().filter_map(crossing_outline).map(Finding::from);
+    let crossing: Vec<Finding> = crossing.collect();
+    let holding =
+        Holding { structure, making, connectors, names, slits: BTreeMap::new() };
+    let mut findings = holding.plates(&mut parts, unlettered);
+    findings.extend(crossing);
+    Made { steps: steps(&parts), structure: structure.clone(), parts, findings }
+}
+
+/// Adds the discs of a plan of strips to their parts.
+pub(super) fn discs(plan: &Plan, parts: &mut Vec<Part>, making: &Making) -> Vec<Finding> {
+    if plan.hubs.is_empty() {
+        return Vec::new();
     }
-    facts.extend(room::unlettered(&unlettered));
-    let steps = steps(&parts);
-    let mut findings: Vec<Finding> = facts.into_iter().map(Finding::from).collect();
-    findings.extend(parts.iter().filter_map(crossing_outline).map(Finding::from));
-    // Where connectors have no room it was said already; parts that overlap say no more.
-    if passes(&findings) {
-        let collisions = collisions(structure, &parts, making.fit);
-        findings.extend(collisions.into_iter().map(Finding::from));
+    let structure = &plan.structure;
+    let mut part_of: BTreeMap<[usize; 2], &str> = BTreeMap::new();
+    for part in parts.iter() {
+        let nodes = part.body.nodes();
+        let fins = nodes.windows(2).map(|w| [w[0].min(w[1]), w[0].max(w[1])]);
+        part_of.extend(fins.map(|fin| (fin, part.id.as_str())));
     }
-    Connected { parts, steps, findings }
+    let names = structure.fins().iter().map(|fin| part_of.get(fin).copied());
+    let names = names.map(|name| name.unwrap_or_default().to_owned()).collect();
+    let hub = |node: usize| plan.hubs.get(&node).cloned().map(Connector::Hub);
+    let connectors = (0..structure.nodes().len()).map(hub).collect();
+    let slits = plan.slits();
+    Holding { structure, making, connectors, names, slits }.plates(parts, Vec::new())
+}
+
+/// What holds the parts of a structure.
+struct Holding<'a> {
+    structure: &'a Structure,
+    making: &'a Making<'a>,
+    /// By node.
+    connectors: Vec<Option<Connector>>,
+    /// The part of each fin.
+    names: Vec<String>,
+    /// What slits take of a fin at its first node, mm.
+    slits: BTreeMap<[usize; 2], f64>,
+}
+
+impl Holding<'_> {
+    /// Adds the plates to the parts they hold and says what is wrong with both;
+    /// `unlettered` are texts that found no room on those.
+    fn plates(
+        &self,
+        parts: &mut Vec<Part>,
+        mut unlettered: Vec<(String, usize)>,
+    ) -> Vec<Finding> {
+        let mut facts = room::findings(self);
+        let first = parts.len();
+        for connector in self.connectors.iter().flatten() {
+            let (part, missing) = plate(connector, self.making, &self.names);
+            unlettered.push((part.id.clone(), missing));
+            parts.push(part);
+        }
+        facts.extend(room::unlettered(&unlettered));
+        let mut findings: Vec<Finding> = facts.into_iter().map(Finding::from).collect();
+        let crossing = parts[first..].iter().filter_map(crossing_outline);
+        findings.extend(crossing.map(Finding::from));
+        // Where connectors have no room it was said already; parts that overlap say no more.
+        if passes(&findings) {
+            let collisions = collisions(self.structure, parts, self.making.fit);
+            findings.extend(collisions.into_iter().map(Finding::from));
+        }
+        findings
+    }
 }
 
 /// What holds the fins of each node, if it joins any.

@@ -13,13 +13,16 @@ pub struct Step {
     pub copies: [usize; 2],
 }
 
+/// Strips go in as they are ranked, then the discs at their ends, each from its side.
+///
 /// The lower disc of a hub comes before its first fin, the upper disc after its last, and so
 /// do all eyes of a hinge with their rod; fins follow in the order of a walk over the
 /// structure, so that what stands hangs together.
-pub(super) fn steps(parts: &[Part]) -> Vec<Step> {
+pub fn steps(parts: &[Part]) -> Vec<Step> {
     let mut discs: BTreeMap<usize, usize> = BTreeMap::new();
     let mut left: BTreeMap<usize, usize> = BTreeMap::new();
     let mut at: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
+    let mut steps = Vec::new();
     for (index, part) in parts.iter().enumerate() {
         match &part.body {
             Body::Fin(fin) => {
@@ -31,10 +34,10 @@ pub(super) fn steps(parts: &[Part]) -> Vec<Step> {
             Body::Connector(connector) => {
                 discs.insert(connector.node(), index);
             }
-            Body::Strip(_) | Body::Coupon => {}
+            Body::Strip(_) => steps.push(Step { part: index, copies: [1, 1] }),
+            Body::Coupon => {}
         }
     }
-    let mut steps = Vec::new();
     let is_hub = |part: &usize| match &parts[*part].body {
         Body::Connector(body) => matches!(body.connector, Connector::Hub(_)),
         _ => false,
@@ -55,6 +58,10 @@ pub(super) fn steps(parts: &[Part]) -> Vec<Step> {
             }
         }
     }
+    let at_strips = lower.into_values().flat_map(|part| {
+        [[1, 1], [2, parts[part].quantity]].map(|copies| Step { part, copies })
+    });
+    steps.extend(at_strips);
     steps
 }
 

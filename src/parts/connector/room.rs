@@ -5,38 +5,63 @@ use crate::parts::Making;
 use crate::parts::connector::finding::ConnectorFinding;
 use crate::parts::connector::hinge::Hinge;
 use crate::parts::connector::seat::Hub;
-use crate::parts::connector::spoke::{Around, sectors, shortest};
-use crate::parts::connector::{Connector, disc};
+use crate::parts::connector::spoke::{Around, Spoke, sectors, shortest};
+use crate::parts::connector::{Connector, Holding, disc};
+use crate::parts::fit::Fit;
 use crate::structure::Structure;
 use crate::tolerance::{ARC_SAGITTA_MM, SAME_LENGTH_MM};
 
 /// Most of a fin that setbacks may take before it is said.
 const SETBACK_SHARE: f64 = 0.25;
 
-pub(super) fn findings(
-    structure: &Structure,
-    making: &Making,
-    connectors: &[Option<Connector>],
-    names: &[String],
-) -> Vec<ConnectorFinding> {
+pub(super) fn findings(holding: &Holding) -> Vec<ConnectorFinding> {
+    let (making, fit) = (holding.making, holding.making.fit);
+    let name = |fin: usize| holding.names[fin].clone();
     let mut all = Vec::new();
-    for connector in connectors.iter().flatten() {
-        all.extend(sharp(connector, making, names));
+    for connector in holding.connectors.iter().flatten() {
+        all.extend(sharp(connector.around(), connector.setback(), &name, fit));
         match connector {
             Connector::Hub(hub) => {
-                all.extend(short(making, hub).into_iter().chain(large(making, hub)));
+                all.extend(short(fit, hub).into_iter().chain(large(making, hub)));
             }
-            Connector::Hinge(hinge) => all.extend(stacked(making, hinge)),
+            Connector::Hinge(hinge) => all.extend(stacked(fit, hinge)),
         }
     }
-    let rooms: Vec<Room> = names
-        .iter()
-        .enumerate()
-        .map(|(fin, name)| Room::new(structure, connectors, (fin, name)))
-        .collect();
-    all.extend(rooms.iter().filter_map(|room| room.touching(making)));
-    all.extend(setbacks(making, &rooms));
+    let rooms: Vec<Room> =
+        (0..holding.names.len()).filter_map(|fin| Room::new(holding, fin)).collect();
+    all.extend(rooms.iter().filter_map(|room| room.touching(fit)));
+    all.extend(setbacks(fit, &rooms));
     all
+}
+
+/// Why a hub has no room, if so; `taken` is what cuts take at the other end of the fin to a
+/// node, mm.
+pub(in crate::parts) fn hub_lacks(
+    structure: &Structure,
+    hub: &Hub,
+    taken: &dyn Fn(usize) -> f64,
+    fit: &Fit,
+) -> Option<ConnectorFinding> {
+    let nodes = |fin: usize| structure.fins()[fin];
+    let name = |fin: usize| {
+        let [i, j] = nodes(fin);
+        format!("fin {i}-{j}")
+    };
+    let touching = |spoke: &Spoke| {
+        let room = Room {
+            part: name(spoke.fin),
+            nodes: nodes(spoke.fin),
+            length: shortest(structure, nodes(spoke.fin)),
+            taken: hub.notch[1] + taken(spoke.to),
+            lost: hub.setback,
+        };
+        room.touching(fit)
+    };
+    sharp(&hub.around, hub.setback, &name, fit)
+        .into_iter()
+        .next()
+        .or_else(|| short(fit, hub))
+        .or_else(|| hub.around.spokes.iter().find_map(touching))
 }
 
 /// What is said of names that found no room, all at once: on a small model there are many.
@@ -49,22 +74,23 @@ pub(super) fn unlettered(missing: &[(String, usize)]) -> Option<ConnectorFinding
 
 /// Fins too near each other for the web between their windows.
 fn sharp(
-    connector: &Connector,
-    making: &Making,
-    names: &[String],
+    around: &Around,
+    setback_mm: f64,
+    name: &dyn Fn(usize) -> String,
+    fit: &Fit,
 ) -> Vec<ConnectorFinding> {
-    let least = making.fit.fin_angle_least;
-    let Around { node, spokes, .. } = connector.around();
+    let least = fit.fin_angle_least;
+    let Around { node, spokes, .. } = around;
     let sharp =
         sectors(spokes).into_iter().enumerate().filter(|&(_, angle)| angle < least);
     sharp
         .map(|(place, angle)| {
             let next = (place + 1) % spokes.len();
             ConnectorFinding::AngleTooSmall {
-                fins: [place, next].map(|k| names[spokes[k].fin].clone()),
+                fins: [place, next].map(|k| name(spokes[k].fin)),
                 node: *node,
                 angle_deg: angle.to_degrees(),
-                setback_mm: connector.setback(),
+                setback_mm,
                 least_deg: least.to_degrees(),
             }
         })
@@ -72,10 +98,10 @@ fn sharp(
 }
 
 /// An axis on which two discs have no room.
-fn short(making: &Making, hub: &Hub) -> Option<ConnectorFinding> {
+fn short(fit: &Fit, hub: &Hub) -> Option<ConnectorFinding> {
     let [low, high] = hub.between();
-    let web_mm = high - low - 2.0 * making.fit.relief;
-    let least_mm = making.fit.web;
+    let web_mm = high - low - 2.0 * fit.relief;
+    let least_mm = fit.web;
     let [below, above] = hub.around.reach;
     let height_mm = below + above;
     let needed_mm = height_mm + (least_mm - web_mm);
@@ -88,9 +114,9 @@ fn short(making: &Making, hub: &Hub) -> Option<ConnectorFinding> {
 }
 
 /// An axis on which the plates of all fins have no room.
-fn stacked(making: &Making, hinge: &Hinge) -> Option<ConnectorFinding> {
+fn stacked(fit: &Fit, hinge: &Hinge) -> Option<ConnectorFinding> {
     let [below, above] = hinge.around.reach;
-    let (height_mm, needed_mm) = (below + above, hinge.needed(making.fit));
+    let (height_mm, needed_mm) = (below + above, hinge.needed(fit));
     (needed_mm > height_mm).then_some(ConnectorFinding::AxisTooShort {
         node: hinge.around.node,
         height_mm,
@@ -121,27 +147,24 @@ struct Room {
 }
 
 impl Room {
-    fn new(
-        structure: &Structure,
-        connectors: &[Option<Connector>],
-        (fin, name): (usize, &str),
-    ) -> Self {
-        let nodes = structure.fins()[fin];
-        let sum = |of: fn(&Connector) -> f64| {
-            nodes.iter().filter_map(|&node| connectors[node].as_ref()).map(of).sum()
-        };
-        let (taken, lost) = (sum(Connector::reach), sum(Connector::setback));
-        Self {
-            part: name.to_owned(),
+    /// `None` for a fin that no connector holds.
+    fn new(holding: &Holding, fin: usize) -> Option<Self> {
+        let nodes = holding.structure.fins()[fin];
+        let held = || nodes.iter().filter_map(|&node| holding.connectors[node].as_ref());
+        held().next()?;
+        let slit = |at: [usize; 2]| holding.slits.get(&at).copied().unwrap_or_default();
+        let slits = slit(nodes) + slit([nodes[1], nodes[0]]);
+        Some(Self {
+            part: holding.names[fin].clone(),
             nodes,
-            length: shortest(structure, nodes),
-            taken,
-            lost,
-        }
+            length: shortest(holding.structure, nodes),
+            taken: held().map(Connector::reach).sum::<f64>() + slits,
+            lost: held().map(Connector::setback).sum(),
+        })
     }
 
-    fn touching(&self, making: &Making) -> Option<ConnectorFinding> {
-        let least_mm = making.fit.web_least;
+    fn touching(&self, fit: &Fit) -> Option<ConnectorFinding> {
+        let least_mm = fit.web_least;
         let web_mm = self.length - self.taken;
         (web_mm < least_mm - SAME_LENGTH_MM).then(|| ConnectorFinding::Touch {
             part: self.part.clone(),
@@ -159,7 +182,7 @@ impl Room {
 }
 
 /// Fins that lose more than a quarter, told by the worst.
-fn setbacks(making: &Making, rooms: &[Room]) -> Option<ConnectorFinding> {
+fn setbacks(fit: &Fit, rooms: &[Room]) -> Option<ConnectorFinding> {
     let short = || rooms.iter().filter(|room| room.lost_share() > SETBACK_SHARE);
     let worst = short().max_by(|a, b| a.lost_share().total_cmp(&b.lost_share()))?;
     let grow = worst.lost_share() / SETBACK_SHARE;
@@ -170,6 +193,6 @@ fn setbacks(making: &Making, rooms: &[Room]) -> Option<ConnectorFinding> {
         length_mm: worst.length,
         lost_mm: worst.lost,
         grow,
-        thinner_mm: making.fit.thickness / grow,
+        thinner_mm: fit.thickness / grow,
     })
 }

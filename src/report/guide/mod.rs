@@ -4,6 +4,7 @@ mod leaf;
 
 use crate::geometry::{Point2, Vector2};
 use crate::job::Job;
+use crate::parts::Body;
 use crate::report::fins;
 use crate::report::manifest::Source;
 use crate::report::picture::Picture;
@@ -121,26 +122,27 @@ impl Figure<'_> {
     }
 }
 
-/// How to read the steps of strips, ...
-const HOW_STRIPS: [&str; 4] = [
+/// How to read the steps: of strips, ...
+const HOW_STRIPS: [&str; 3] = [
     "The engraved face looks along travel × axis: read the part's name upright and the \
      nodes run from left to right, their axes upward.",
     "\"S03 at 12\" means: at node 12 the slit that is open below slides over the slit of S03 \
      that is open above.",
     "Zip means: start at one end and push the strip down node after node, letting the free end \
      stand off. Do not force it flat in one go.",
-    NO_STRESS,
 ];
 
-/// ... and those of single fins.
-const HOW_CONNECTED: [&str; 4] = [
+/// ... of single fins, ...
+const HOW_FINS: [&str; 2] = [
     "Read a fin's name upright: its arrow points up the node axes, and each end bears the \
      name of its node.",
-    "Connectors look up with their letters. A disc bears beside each window the name of the fin \
-     that stands there; the key holes of both discs of a node lie above each other.",
     "\"F03 at 12\" means: at node 12 the connector also takes fin F03, which stands already.",
-    NO_STRESS,
 ];
+
+/// ... and of connectors.
+const HOW_CONNECTORS: &str = "Connectors look up with their letters. A disc bears beside each \
+    window the name of the part that stands there; the key holes of both discs of a node lie \
+    above each other.";
 
 const NO_STRESS: &str = "Put nothing under stress that was cleaned with alcohol or solvent: \
     acrylic crazes. Work on a flat board, and dry-fit before you glue.";
@@ -164,10 +166,12 @@ fn title(job: &Job, source: &Source, steps: usize) -> Leaf {
         ),
         job.verdict.as_ref().map(|verdict| verdict.summary()).unwrap_or_default(),
     ];
-    let how = match job.steps.is_empty() {
-        true => HOW_STRIPS,
-        false => HOW_CONNECTED,
+    let mut how: Vec<&str> = match job.has(|body| matches!(body, Body::Fin(_))) {
+        true => HOW_FINS.to_vec(),
+        false => HOW_STRIPS.to_vec(),
     };
+    let connected = job.has(|body| matches!(body, Body::Connector(_)));
+    how.extend(connected.then_some(HOW_CONNECTORS).into_iter().chain([NO_STRESS]));
     let order = format!(
         "The parts go in one after the other in {steps} steps. Each figure shows in grey what \
          stands already and in orange the parts that go in; where something stands in front of \

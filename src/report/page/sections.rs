@@ -175,9 +175,9 @@ pub(super) fn parts(page: &Page) -> String {
     };
     let rows: Vec<Vec<String>> = job.parts.iter().enumerate().map(row).collect();
     let heads = ["part", "length mm", "height mm", "cut mm", "sheet", "nodes in order"];
-    let caption = match job.steps.is_empty() {
-        true => "Parts in the order of assembly",
-        false => "Fins, then connectors by their nodes",
+    let caption = match job.has(|body| matches!(body, Body::Fin(_))) {
+        true => "Fins, then connectors by their nodes",
+        false => "Parts in the order of assembly",
     };
     table(caption, &heads, &rows)
 }

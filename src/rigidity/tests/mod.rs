@@ -99,13 +99,12 @@ fn nodes_of_valence_three_and_five_leave_twice_v_less_e_less_three() {
         draft.fixed = Some(Vec::new());
         let (structure, _) =
             Structure::new(draft, &crate::tolerance::Tolerance::default()).unwrap();
-        let model = Model::of(&structure, Joint::Hinge, &Default::default());
+        let model = Model::of_fins(&structure, &Default::default());
         let (v, e) = (structure.nodes().len(), structure.fins().len());
         assert_eq!(dof(&model), 2 * v - e - 3, "{name}");
     }
 }
 
-use crate::joint::Joint;
 use crate::structure::Structure;
 
 /// The model under a projective map of space, axes cut to their old half length.
