@@ -11,7 +11,9 @@ import numpy as np
 import shapely
 from shapely import affinity
 
-from plates import Connector, End, Plates, Span, slot_along
+from bodies import check_bodies
+from leaves import End, Span
+from plates import Connector, Plates, slot_along
 from report import Report
 
 TOUCH = 1e-3  # mm, rounding of fins that are planar to 1e-4
@@ -30,7 +32,7 @@ def check_assembled(plates: Plates, report: Report) -> None:
                 _check_seat(plates, connector, copy, end, report)
             if connector.kind == "hub":
                 _check_way_in(plates, connector, copy, report)
-    _check_neighbours(plates, report)
+    check_bodies(plates, report)
     _check_steps(plates, report)
     _check_rods(plates, report)
 
@@ -89,7 +91,7 @@ def _check_slot(region, slot: Span | None, spans: list[Span], asked: tuple[float
 def _check_way_in(plates: Plates, connector: Connector, copy: int, report: Report) -> None:
     """A disc is pushed on along the axis: below the lower one and above the upper one nothing stands in its way."""
     lower = copy == 0
-    for end in plates.held(connector).values():
+    for end in plates.ends[connector.node]:
         region = connector.region(copy, plates.direction(end))
         inner = connector.face(copy, 1 - SKIN if lower else SKIN - 1)
         outer = end.region.bounds[1 if lower else 3]
@@ -111,36 +113,8 @@ def _check_stack(connector: Connector, report: Report) -> None:
         report.claim("assembly: copies from below", [] if heights == sorted(heights) and len(heights) == 2 else [f"{connector.part}: {heights}"])
 
 
-def _check_neighbours(plates: Plates, report: Report) -> None:
-    """Plates of two nodes that a fin joins do not meet: edges of each, looked at from the other's axis."""
-    for i, j in plates.job.space.fins:
-        for a in plates.connectors.get(i, []):
-            for b in plates.connectors.get(j, []):
-                for one, other in ((a, b), (b, a)):
-                    inside = sum(_points_inside(plates, one, other, copy) for copy in range(len(other.cut)))
-                    report.claim("assembly: neighbours' plates apart", [f"{one.part} and {other.part}"] if inside else [], len(other.cut))
-
-
-def _points_inside(plates: Plates, one: Connector, other: Connector, copy: int) -> int:
-    """How many points of the rim of a plate, on both faces and between, lie inside plates of another connector."""
-    space = plates.job.space
-    rim = np.array(other.region(copy, 0.0).exterior.segmentize(1.0).coords)
-    flat = rim @ np.stack([space.first[other.node], space.second[other.node]])
-    levels = [other.face(copy, side) for side in (-1, 0, 1)]
-    points = np.concatenate([space.positions[other.node] + flat + level * space.axes[other.node] for level in levels])
-    seen = points - space.positions[one.node]
-    x, y, height = (seen @ space.first[one.node], seen @ space.second[one.node], seen @ space.axes[one.node])
-    near = np.hypot(x, y) < max(np.hypot(*np.array(one.cut[0].exterior.coords).T))
-    count = 0
-    for k in range(len(one.cut)):
-        level = near & (height > one.face(k, -1)) & (height < one.face(k, 1))
-        if level.any():
-            count += int(shapely.contains_xy(one.region(k, 0.0), x[level], y[level]).sum())
-    return count
-
-
 def _check_steps(plates: Plates, report: Report) -> None:
-    """Each copy in one step; a hub's lower disc before its fins, its upper disc after them."""
+    """Each copy in one step, those of a connector before or after what it holds."""
     step: dict[tuple[str, int], int] = {}
     found = []
     for entry in plates.job.manifest["assembly"]:
@@ -151,12 +125,19 @@ def _check_steps(plates: Plates, report: Report) -> None:
     missing = set(plates.cut) ^ set(step)
     found += [f"{part}/{copy} is in no step or no part" for part, copy in sorted(missing)]
     for connector in plates.all() if not missing else ():
-        fins = [step[fin, 1] for fin in connector.fins]
-        if connector.kind == "hub" and not step[connector.part, 1] < min(fins) <= max(fins) < step[connector.part, 2]:
-            found.append(f"{connector.part}: discs at steps {step[connector.part, 1]} and {step[connector.part, 2]}, fins at {fins}")
-        if connector.kind == "hinge" and step[connector.part, 1] < max(fins):
-            found.append(f"{connector.part}: its rod goes in before the last fin")
+        found += _step_problems(plates, connector, step)
     report.claim("assembly: steps of fins and plates", found, len(step))
+
+
+def _step_problems(plates: Plates, connector: Connector, step: dict[tuple[str, int], int]) -> list[str]:
+    """A hub's lower disc goes in before its fins, its upper disc after them; strips come first of all, as they hold each other."""
+    held = sorted(step[end.part, 1] for end in plates.ends[connector.node])
+    first, last = step[connector.part, 1], step[connector.part, len(connector.cut)]
+    if connector.kind == "hinge":
+        return [f"{connector.part}: its rod goes in before the last fin"] if first < held[-1] else []
+    after_strips = [step[strip, 1] for strip in plates.job.strips]
+    right = max(after_strips) < first < last if after_strips else first < held[0] <= held[-1] < last
+    return [] if right else [f"{connector.part}: discs at steps {first} and {last}, fins at {held}"]
 
 
 def _check_rods(plates: Plates, report: Report) -> None:

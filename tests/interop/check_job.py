@@ -14,6 +14,7 @@ from files import check_files, check_pictures, check_shape
 from job import Job
 from refold import check_refold
 from report import Report
+from setbacks import check_listed_setbacks
 from sheets import check_sheets
 from slits import check_slits
 
@@ -29,7 +30,7 @@ def check(folder: Path) -> Report:
     check_shape(job, report)
     if report.misses():
         return report
-    in_space = () if job.is_coupon else (check_refold, check_slits, check_connectors)
+    in_space = () if job.is_coupon else (check_refold, check_slits, check_listed_setbacks, check_connectors)
     for step in (_open, check_files, check_pictures, *in_space, check_sheets):
         _run(step, job, report)
     return report

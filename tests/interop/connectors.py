@@ -1,4 +1,4 @@
-"""Connectors and single fins: what job.json lists and what the DXF cuts, against the structure and the thickness."""
+"""Connectors and what they hold: what job.json lists and what the DXF cuts, against the structure and the thickness."""
 
 from __future__ import annotations
 
@@ -10,13 +10,14 @@ import shapely
 
 from assembled import check_assembled
 from job import Job
-from plates import FAR, Connector, End, Plates, least_setback, pieces_of, slot_along
+from leaves import FAR, pieces_of
+from plates import Connector, Plates, slot_along
 from report import Report
+from setbacks import check_end
 
 ANGLE = 0.01  # degrees, a slot against its fin in space
 MEASURED = 1e-3  # mm, a cut contour against what is listed
 LENGTH = 0.01  # mm, the straight part of a slot's walls; rounding makes it look longer
-EDGE = 2e-3  # mm, a fin's edge against the edge of its quad
 CONGRUENT = 0.02  # mm, outlines of one shape
 DISTINCT = 5e-3  # mm, outlines of two shapes
 FLAT = 2e-3  # mm, by which flattened arcs narrow a web
@@ -35,7 +36,7 @@ def check_connectors(job: Job, report: Report) -> None:
     plates = Plates(job)
     for at in plates.ends.values():
         for end in at:
-            _check_end(plates, end, report)
+            check_end(plates, end, report)
     for connector in plates.all():
         _check_listed(plates, connector, report)
         _check_web(job, connector, report)
@@ -45,32 +46,29 @@ def check_connectors(job: Job, report: Report) -> None:
 
 
 def _set_problems(job: Job) -> list[str]:
-    """A connector where two or more fins meet and one of them is a single fin; strips hold each other."""
+    """A connector where two or more fins meet and one of them is a single fin; strips may hold each other."""
     sets = Counter(part["connector"]["node"] for part in job.parts.values() if part.get("connector"))
     single = {node for part in job.parts.values() if part.get("fin") for node in part["fin"]["nodes"]}
     wanted = {node for node in single if len(job.space.neighbours[node]) > 1}
     found = [f"node {node} has {n} sets" for node, n in sorted(sets.items()) if n != 1]
     found += [f"node {node} has single fins and no connector" for node in sorted(wanted - set(sets))]
-    spare = set(sets) - wanted if not job.strips else {node for node in sets if len(job.space.neighbours.get(node, [])) < 2}
-    return found + [f"node {node} has a connector and nothing to join" for node in sorted(spare)]
+    lonely = {node for node in sets if len(job.space.neighbours.get(node, [])) < 2}
+    return found + [f"node {node} has a connector and nothing to join" for node in sorted(lonely)]
 
 
 def _stray_fins(job: Job) -> list[str]:
-    """A connector names each fin of its node once, in its list, its slots and its copies, and no other."""
-    at: dict[int, list[str]] = {}
-    for name, part in job.parts.items():
-        for node in (part.get("fin") or {"nodes": []})["nodes"]:
-            at.setdefault(node, []).append(name)
+    """A connector names each end at its node once, in its list, its slots and its copies, and no other."""
     found = []
     for name, part in job.parts.items():
         if not (listed := part.get("connector")):
             continue
-        wanted = sorted(at.get(listed["node"], []))
-        held = Counter(fin for copy in listed["copies"] for fin in copy["fins"])
-        named = {"fins": [fin for fin, _ in listed["fins"]], "slots": [slot["fin"] for slot in listed["slots"]], "copies": list(held)}
-        found += [f"{name}: {key} {sorted(fins)} for {wanted}" for key, fins in named.items() if sorted(fins) != wanted]
+        wanted, in_slots = job.ends.get(listed["node"], []), job.slot_ends(listed)
+        found += [f"{name}: slots {in_slots} for {wanted}"] * (Counter(in_slots) != Counter(wanted))
+        at = Counter(fin for fin, _ in wanted)
+        in_list, in_copies = Counter(fin for fin, _ in listed["fins"]), Counter(fin for copy in listed["copies"] for fin in copy["fins"])
+        found += [f"{name}: fins {dict(in_list)} for {dict(at)}"] * (in_list != at)
+        found += [f"{name}: {fin} is held by {in_copies[fin]} plates at {at[fin]} ends" for fin in at | in_copies if in_copies[fin] != 2 * at[fin]]
         found += [f"{name}: {len(listed['copies'])} copies of {part['quantity']}"] * (len(listed["copies"]) != part["quantity"])
-        found += [f"{name}: {fin} is held by {n} plates" for fin, n in held.items() if n != 2]
     return found
 
 
@@ -97,38 +95,15 @@ def _laid(job: Job, part: dict) -> shapely.Polygon:
     return shapely.transform(job.regions[part["id"]], lambda points: (points - bottom) @ frame)
 
 
-def _check_end(plates: Plates, end: End, report: Report) -> None:
-    """Cut back far enough, as far as listed, and along the fin's own edges between."""
-    job, where = plates.job, f"{end.part} at node {end.node}"
-    others = [job.space.angle(end.node, other) - job.space.angle(end.node, end.other) for other in job.space.neighbours[end.node] if other != end.other]
-    needed = max((least_setback(float(np.degrees(angle)), job.thickness) for angle in others), default=0.0)
-    start = end.region.bounds[0]
-    report.at_least("fins: setback over the least", start - needed, -MEASURED, where)
-    report.at_least("fins: setback listed over the least", end.setback - needed, -MEASURED, where)
-    report.at_most("fins: setback as listed", abs(start - end.setback), MEASURED, where)
-    low, high = (_edge_middle(plates, end, ends) for ends in (job.space.bottoms, job.space.tops))
-    apart = max(end.region.exterior.distance(shapely.Point(point)) for point in (low, high))
-    report.at_most("fins: outline along the fin's edges", float(apart), EDGE, where)
-
-
-def _edge_middle(plates: Plates, end: End, corners: np.ndarray) -> np.ndarray:
-    """Middle of a fin's lower or upper edge in space, in the frame of the end."""
-    space = plates.job.space
-    along = (corners[end.node] + corners[end.other]) / 2 - space.positions[end.node]
-    high = along @ space.axes[end.node]
-    return np.array([np.sqrt(max(0.0, along @ along - high**2)), high])
-
-
 def _check_listed(plates: Plates, connector: Connector, report: Report) -> None:
     job, where = plates.job, connector.part
-    held = plates.held(connector)
     off = []
     for slot in connector.slots:
-        turned = connector.start + slot["angle_deg"] - plates.direction(held[slot["fin"]])
+        turned = connector.start + slot["angle_deg"] - plates.direction(plates.end_in(connector, slot))
         off.append(abs((turned + 180) % 360 - 180))
         report.at_most("connectors: slot width as thickness asks", abs(slot["width"] - job.thickness - job.clearance), MEASURED, f"{where} {slot['fin']}")
     report.at_most("connectors: slot angles", max(off), ANGLE, where, "degrees", count=len(off))
-    order = list(connector.fins.values())
+    order = [slot["angle_deg"] for slot in connector.slots]
     turning = [] if order == sorted(order) and order[0] >= 0 and order[-1] < 360 else [f"{where}: {order}"]
     report.claim("connectors: fins counter-clockwise", turning)
 
@@ -162,12 +137,11 @@ def _check_cheeks(job: Job, connector: Connector, report: Report) -> None:
 
 def _check_slots(plates: Plates, connector: Connector, copy: int, report: Report) -> None:
     """Each slot as cut in this copy, measured along the direction its fin has in space."""
-    held = plates.held(connector)
     for slot in connector.slots:
         if slot["fin"] not in connector.copies[copy]["fins"]:
             continue
         where = f"{connector.part}/{copy + 1} {slot['fin']}"
-        region = connector.region(copy, plates.direction(held[slot["fin"]]))
+        region = connector.region(copy, plates.direction(plates.end_in(connector, slot)))
         found = slot_along(region)
         if found is None:
             report.at_most("connectors: slot cut at its angle", float("inf"), ANGLE, where, "degrees")

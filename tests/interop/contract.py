@@ -68,11 +68,12 @@ STRIP = {
         }
     ],
     "splices": [{"fin": Row(COUNT, COUNT)}],
+    "setbacks": Optional(Row(NUMBER, NUMBER)),
 }
 CONNECTOR = {
     "node": COUNT,
     "fins": [Row(TEXT, NUMBER)],
-    "slots": [{"fin": TEXT, "angle_deg": NUMBER, "width": NUMBER, "length": NUMBER}],
+    "slots": [{"fin": TEXT, "to": Optional(COUNT), "angle_deg": NUMBER, "width": NUMBER, "length": NUMBER}],
     "kind": OneOf("hub", "hinge"),
     "radius": NUMBER,
     "hole": NUMBER,
@@ -120,7 +121,7 @@ JOB = {
             "placements": [{"part": TEXT, "copy": COUNT, "x": NUMBER, "y": NUMBER, "angle_deg": NUMBER}],
         }
     ],
-    "assembly": [{"step": COUNT, "part": TEXT, "copies": Optional(Row(COUNT, COUNT))}],
+    "assembly": [{"step": COUNT, "part": TEXT, "copies": Optional(Row(COUNT, COUNT)), "from": Optional(OneOf("above", "below"))}],
     "hardware": Optional([HARDWARE]),
     "totals": {
         "parts": COUNT,

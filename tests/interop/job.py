@@ -25,6 +25,7 @@ class Strip:
     folds: list[dict]
     slits: list[dict]
     splices: list[tuple[int, int]]
+    setbacks: tuple[float, float]
     outline: shapely.Polygon
 
     def sides(self, k: int) -> tuple[int | None, int | None]:
@@ -43,6 +44,11 @@ class Strip:
             elif node in (i, j) and (self.nodes[1] if at_start else self.nodes[-2]) not in (i, j):
                 return j if node == i else i
         return None
+
+    def ends(self) -> list[tuple[int, int, int]]:
+        """Where the strip ends at an axis and not at a splice: first (0) or last (1), which of its nodes, and the node before."""
+        places = [(place, k, self.sides(k)) for place, k in ((0, 0), (1, len(self.nodes) - 1))]
+        return [(place, k, sides[1 - place]) for place, k, sides in places if sides[place] is None and sides[1 - place] is not None]
 
     def slit_at(self, k: int) -> dict | None:
         """A closed strip has no slit where it was opened."""
@@ -69,8 +75,27 @@ class Job:
         self.parts = {part["id"]: part for part in self.manifest["parts"]}
         self.regions = {name: _region(part) for name, part in self.parts.items()}
         self.strips = {name: _strip(part) for name, part in self.parts.items() if part.get("strip")}
+        self.ends = self._ends()
+        self.connected = {part["connector"]["node"] for part in self.parts.values() if part.get("connector")}
         material = self.manifest["material"]
         self.thickness, self.kerf, self.clearance = (float(material[key]) for key in ("thickness", "kerf", "clearance"))
+
+    def _ends(self) -> dict[int, list[tuple[str, int]]]:
+        """By node the parts that end there, single fins and strips, each with the node at the other end of its fin."""
+        found: dict[int, list[tuple[str, int]]] = {}
+        for name, part in self.parts.items():
+            i, j = (part.get("fin") or {"nodes": (None, None)})["nodes"]
+            for node, other in ((i, j), (j, i)) if part.get("fin") else ():
+                found.setdefault(node, []).append((name, other))
+        for strip in self.strips.values():
+            for _, k, other in strip.ends():
+                found.setdefault(strip.nodes[k], []).append((strip.id, other))
+        return found
+
+    def slot_ends(self, connector: dict) -> list[tuple[str, int | None]]:
+        """Which end stands in each slot. Jobs of single fins may leave `to` out: no fin has two ends at a node."""
+        known = dict(self.ends.get(connector["node"], []))
+        return [(slot["fin"], slot.get("to", known.get(slot["fin"]))) for slot in connector["slots"]]
 
     def file(self, name: str) -> Path:
         """Names of sheet files count from the job directory; a bare file name is looked for in sheets/."""
@@ -104,5 +129,6 @@ def _strip(part: dict) -> Strip:
         strip["folds"],
         strip["slits"],
         [tuple(splice["fin"]) for splice in strip["splices"]],
+        tuple(strip.get("setbacks") or (0.0, 0.0)),
         _region(part),
     )

@@ -1,4 +1,4 @@
-"""Single fins and connectors as flat plates: their regions as the DXF will cut them, and sections across a node axis."""
+"""Connectors and the ends of fins and strips that stand in them, as the DXF cuts them."""
 
 from __future__ import annotations
 
@@ -9,33 +9,11 @@ import numpy as np
 import shapely
 from shapely import affinity
 
+from cut import cut_regions
 from job import Job
-from read_dxf import read_dxf
-from report import Report
-from segments import Drawing
-from sheets import with_holes
+from leaves import End, Leaf, fin_ends, pieces_of, strip_ends, strip_leaves
 
-FAR = 1e4  # mm, farther than any part
 NONE = 1e-3  # mm, a length that rounding makes
-
-Array = np.ndarray
-Span = tuple[float, float]  # from and to, by the distance from the node axis
-
-
-@dataclass
-class End:
-    """A fin seen from the axis of one of its nodes: x from the axis into the fin, y along the axis from the node up."""
-
-    part: str
-    node: int
-    other: int
-    region: shapely.Polygon
-    setback: float
-
-    def spans(self, height: float) -> list[Span]:
-        """Where the plane across the axis at this height cuts the fin; it contains the axis, so this is exact."""
-        cut = self.region.intersection(shapely.LineString([(-FAR, height), (FAR, height)]))
-        return sorted((piece.bounds[0], piece.bounds[2]) for piece in pieces_of(cut) if piece.length > 0)
 
 
 @dataclass
@@ -45,7 +23,6 @@ class Connector:
     part: str
     node: int
     kind: str
-    fins: dict[str, float]
     slots: list[dict]
     copies: list[dict]
     thickness: float
@@ -64,96 +41,56 @@ class Connector:
 
 
 class Plates:
-    """All single fins by the nodes they end at, all connectors by their nodes."""
+    """All connectors by their nodes, all single fins and the held ends of strips by the nodes they end at."""
 
     def __init__(self, job: Job) -> None:
         self.job = job
         self.cut = cut_regions(job)
         self.ends: dict[int, list[End]] = {}
+        self.leaves: list[Leaf] = []
         self.connectors: dict[int, list[Connector]] = {}
         for part in job.parts.values():
-            if part.get("fin"):
-                for end in _ends(job, part, self.cut[part["id"], 1]):
-                    self.ends.setdefault(end.node, []).append(end)
             if part.get("connector"):
                 connector = self._connector(part)
                 self.connectors.setdefault(connector.node, []).append(connector)
+        for part in job.parts.values():
+            if part.get("fin"):
+                ends = fin_ends(job, part, self.cut[part["id"], 1])
+                self._add(ends, ends[:1])
+        for strip in job.strips.values():
+            region = self.cut[strip.id, 1]
+            self._add([end for end in strip_ends(job, strip, region) if end.node in self.connectors], strip_leaves(job, strip, region))
+
+    def _add(self, ends: list[End], leaves: list[Leaf]) -> None:
+        self.leaves += leaves
+        for end in ends:
+            self.ends.setdefault(end.node, []).append(end)
 
     def direction(self, end: End) -> float:
         """Of a fin about its node in space, degrees."""
         return float(np.degrees(self.job.space.angle(end.node, end.other)))
 
-    def held(self, connector: Connector) -> dict[str, End]:
-        return {end.part: end for end in self.ends.get(connector.node, []) if end.part in connector.fins}
+    def end_in(self, connector: Connector, slot: dict) -> End:
+        return next(end for end in self.ends[connector.node] if (end.part, end.other) == (slot["fin"], slot["to"]))
 
     def all(self) -> list[Connector]:
         return [connector for at in self.connectors.values() for connector in at]
 
     def _connector(self, part: dict) -> Connector:
         listed = part["connector"]
-        node, (first, angle) = listed["node"], listed["fins"][0]
-        ends = {end: other for i, j in [self.job.parts[first]["fin"]["nodes"]] for end, other in ((i, j), (j, i))}
-        start = float(np.degrees(self.job.space.angle(node, ends[node]))) - angle
+        slots = [{**slot, "to": to} for slot, (_, to) in zip(listed["slots"], self.job.slot_ends(listed))]
+        start = float(np.degrees(self.job.space.angle(listed["node"], slots[0]["to"]))) - slots[0]["angle_deg"]
         cut = [self.cut[part["id"], copy + 1] for copy in range(part["quantity"])]
         return Connector(
-            part["id"], node, listed["kind"], dict(listed["fins"]), listed["slots"], listed["copies"],
+            part["id"], listed["node"], listed["kind"], slots, listed["copies"],
             listed["thickness"], listed["hole"], listed["radius"], cut, start,
         )  # fmt: skip
-
-
-def _ends(job: Job, part: dict, region: shapely.Polygon) -> list[End]:
-    axes = part["fin"]["axes"]
-    ends = []
-    for k, (axis, other) in enumerate((axes, axes[::-1])):
-        bottom, top = np.array(axis["bottom"], float), np.array(axis["top"], float)
-        up = (top - bottom) / np.linalg.norm(top - bottom)
-        inward = np.array([up[1], -up[0]]) * (1 if k == 0 else -1)
-        foot = bottom + up * np.linalg.norm(job.space.positions[axis["node"]] - job.space.bottoms[axis["node"]])
-        frame = np.column_stack([inward, up])
-        turned = shapely.transform(region, lambda points, foot=foot, frame=frame: (points - foot) @ frame)
-        ends.append(End(part["id"], axis["node"], other["node"], turned, part["fin"]["setbacks"][k]))
-    return ends
-
-
-def cut_regions(job: Job) -> dict[tuple[str, int], shapely.Polygon]:
-    """Each copy of each part in part coordinates, as the drawn lines leave it when the kerf is burnt away."""
-    found = {}
-    for sheet in job.manifest["sheets"]:
-        drawn = _drawn(read_dxf(job.file(sheet["files"]["dxf"]), Report()))
-        bounds = shapely.bounds(drawn)
-        for place in (place for place in sheet["placements"] if place["part"] in job.parts):
-            wanted = np.array(job.placed(place).bounds) + np.array([-1, -1, 1, 1]) * job.kerf / 2
-            at = int(np.argmin(np.abs(bounds - wanted).max(axis=1)))
-            found[place["part"], place["copy"]] = _taken_back(_without_kerf(drawn[at], job.kerf), place)
-    return found
-
-
-def _drawn(drawing: Drawing) -> Array:
-    outers, holes = ([shapely.Polygon(s.points) for s in drawing.layers.get(layer, []) if len(s.points) > 2] for layer in ("CUT_OUTER", "CUT_INNER"))
-    return with_holes(np.array(outers), np.array(holes))[0]
-
-
-def _without_kerf(region: shapely.Polygon, kerf: float) -> shapely.Polygon:
-    outer = shapely.Polygon(region.exterior).buffer(-kerf / 2, join_style="mitre")
-    holes = [shapely.Polygon(hole).buffer(kerf / 2, join_style="mitre").exterior for hole in region.interiors]
-    return shapely.Polygon(outer.exterior, holes)
-
-
-def _taken_back(region: shapely.Polygon, place: dict) -> shapely.Polygon:
-    turn = radians(place["angle_deg"])
-    matrix = np.array([[cos(turn), -sin(turn)], [sin(turn), cos(turn)]])
-    shift = np.array([place["x"], place["y"]])
-    return shapely.transform(region, lambda points: (points - shift) @ matrix)
 
 
 def least_setback(angle: float, thickness: float) -> float:
     """Distance from the axis at which a fin clears another at this angle, in degrees: (t + t cos b) / (2 sin b)."""
     b = radians(min(angle % 360, -angle % 360))
     return max(0.0, (thickness + thickness * cos(b)) / (2 * sin(b))) if 0 < b < pi - 1e-12 else 0.0
-
-
-def pieces_of(shape: shapely.Geometry) -> list[shapely.Geometry]:
-    return list(getattr(shape, "geoms", [shape]))
 
 
 def slot_along(region: shapely.Polygon) -> tuple[float, float] | None:

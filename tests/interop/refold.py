@@ -85,7 +85,9 @@ def _check_fins(job: Job, strip: Strip, report: Report) -> None:
         nodes = strip.nodes[k : k + 2]
         flat = [strip.bottoms[k], strip.tops[k], strip.bottoms[k + 1], strip.tops[k + 1]]
         _check_fin(job, strip.id, nodes, flat, report)
-        # Away from the axes, where slits are, the outline runs along the fin's own edges.
+        # Away from the axes, where slits are, the outline runs along the fin's own edges; the notches for discs may reach farther.
+        if job.connected & set(nodes):
+            continue
         for ends in (strip.tops, strip.bottoms):
             middle = shapely.Point((ends[k] + ends[k + 1]) / 2)
             report.at_most("refold: outline along the fins", strip.outline.exterior.distance(middle), EDGE, f"{strip.id} fin {nodes}")
@@ -208,14 +210,14 @@ def _on_quad(job: Job, strip: Strip, fin: tuple[int, int]) -> shapely.Polygon | 
 
 def _check_connector(job: Job, name: str, connector: dict, report: Report) -> None:
     """The fins stand about the connector as about the node; where the count of angles starts is free."""
-    node, off = connector["node"], []
-    for part_id, angle in connector["fins"]:
-        nodes = (job.parts.get(part_id, {}).get("fin") or {}).get("nodes", [])
-        if node not in nodes:
-            report.claim("connectors: fins of their node", [f"{name}: {part_id} does not reach node {node}"])
-            return
-        other = nodes[0] if nodes[1] == node else nodes[1]
-        off.append((angle - np.degrees(job.space.angle(node, other))) % 360)
-    report.claim("connectors: fins of their node", [] if len(off) == len(job.space.neighbours[node]) else [f"{name}: {len(off)} fins"])
-    spread = max((abs((value - off[0] + 180) % 360 - 180) for value in off), default=0.0)
-    report.at_most("connectors: angles", float(spread), ANGLE, name, "degrees")
+    node = connector["node"]
+    ends = job.slot_ends(connector)
+    problems = [f"{name}: {part} does not end at node {node}" for part, to in ends if (part, to) not in job.ends.get(node, [])]
+    in_slots = [[slot["fin"], slot["angle_deg"]] for slot in connector["slots"]]
+    problems += [f"{name}: fins {connector['fins']}, slots {in_slots}"] * (sorted(connector["fins"]) != sorted(in_slots))
+    problems += [f"{name}: {len(ends)} fins"] * (len(ends) != len(job.space.neighbours.get(node, [])))
+    report.claim("connectors: fins of their node", problems)
+    if not problems:
+        off = [(slot["angle_deg"] - np.degrees(job.space.angle(node, to))) % 360 for slot, (_, to) in zip(connector["slots"], ends)]
+        spread = max(abs((value - off[0] + 180) % 360 - 180) for value in off)
+        report.at_most("connectors: angles", float(spread), ANGLE, name, "degrees")

@@ -77,8 +77,9 @@ def slot_turned(_: Path, manifest: dict) -> None:
 
 def fins_swapped(_: Path, manifest: dict) -> None:
     connector = spoilt(manifest)["connector"]
-    for entries, key in ((connector["fins"], 0), (connector["slots"], "fin")):
-        entries[1][key], entries[2][key] = entries[2][key], entries[1][key]
+    for entries, keys in ((connector["fins"], (0,)), (connector["slots"], {"fin", "to"} & set(connector["slots"][1]))):
+        for key in keys:
+            entries[1][key], entries[2][key] = entries[2][key], entries[1][key]
 
 
 def notch_moved(folder: Path, manifest: dict) -> None:

@@ -69,7 +69,7 @@ def check_slits(job: Job, report: Report) -> None:
         for k, node in enumerate(strip.nodes):
             places.setdefault(node, []).append((strip, k))
     nodes = {node: Node(job, node, at) for node, at in places.items()}
-    unheld = any(finding["code"] == "parts::strip_end_unheld" for finding in job.manifest["findings"])
+    unheld = [finding["place"] for finding in job.manifest["findings"] if finding["code"] == "parts::strip_end_unheld"]
     for node in nodes.values():
         for strip, k in node.places:
             if slit := strip.slit_at(k):
@@ -77,7 +77,10 @@ def check_slits(job: Job, report: Report) -> None:
                 _check_outline(strip, k, slit, report)
             elif k in (0, len(strip.nodes) - 1):
                 _check_set_back(node, strip, k, report)
-        _check_node(node, unheld, report)
+        if node.node in job.connected:
+            _check_in_discs(node, report)
+        else:
+            _check_node(node, [place for place in unheld if node.node in place["nodes"]], report)
     for strip in job.strips.values():
         at = Counter(slit["node"] for slit in strip.slits)
         inner = strip.nodes[:-1] if strip.closed else strip.nodes
@@ -171,7 +174,15 @@ def _check_set_back(node: Node, strip: Strip, k: int, report: Report) -> None:
     report.claim("slits: other ends set back", [f"{strip.id} reaches into node {node.node}"] if strip.outline.intersects(zone) else [])
 
 
-def _check_node(node: Node, unheld: bool, report: Report) -> None:
+def _check_in_discs(node: Node, report: Report) -> None:
+    """Where discs stand, every strip ends, and none has a slit."""
+    through = [strip.id for strip, k in node.places if None not in strip.sides(k)]
+    lapped = [strip.id for strip, k in node.places if strip.slit_at(k)]
+    problems = [f"node {node.node}: {name} goes through its discs" for name in through]
+    report.claim("slits: every strip ends at discs", problems + [f"node {node.node}: {name} has a slit for discs" for name in lapped])
+
+
+def _check_node(node: Node, unheld: list[dict], report: Report) -> None:
     lapped = [(strip, k) for strip, k in node.places if strip.slit_at(k)]
     through = [(strip, k) for strip, k in node.places if None not in strip.sides(k)]
     found = []
@@ -184,8 +195,9 @@ def _check_node(node: Node, unheld: bool, report: Report) -> None:
     bare = [strip.id for strip, k in through if not strip.slit_at(k)]
     meets = len({strip.id for strip, _ in node.places}) > 1
     problems = [f"node {node.node}: {name} goes through without a slit" for name in bare] if len(through) > 1 else []
-    if meets and len(lapped) < len(node.places) and not unheld:
-        problems.append(f"node {node.node}: an end is not held and no parts::strip_end_unheld says so")
+    loose = [strip.id for strip, k in node.places if None in strip.sides(k) and not strip.slit_at(k)]
+    if meets and len(loose) > len(unheld):
+        problems.append(f"node {node.node}: ends of {loose} are not held, said so by {len(unheld)} parts::strip_end_unheld")
     report.claim("slits: strips that meet are held", problems)
 
 
