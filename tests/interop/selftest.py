@@ -18,6 +18,8 @@ import shapely
 
 from check_job import check, check_same
 from selftest_connectors import facts as connector_facts
+from selftest_held import FAULTS as HELD_FAULTS
+from tiny_hub import tiny_hub
 from tiny_job import KERF, STRIPS, Corner, Path2, TinyJob, offset, placed, runs_of, slit_of, tiny_job
 
 Fault = tuple[str, Callable[[], TinyJob], str]
@@ -301,19 +303,22 @@ def main() -> int:
         # ezdxf stamps the time, so these two runs differ: a natural fault for the comparison of bytes.
         spliced_job().write(Path(scratch, "spliced"))
         spliced = check(Path(scratch, "spliced"))
+        tiny_hub().write(Path(scratch, "held"))
+        held = check(Path(scratch, "held"))
         facts = {
             "a right job passes": not right.misses(),
             "a right job with a splice passes": not spliced.misses(),
+            "a right job with ends in discs passes": not held.misses(),
             "unequal bytes are found": bool(same.misses()),
             **(connector_facts(binary.resolve(), Path(scratch)) if binary else {}),
         }
         for name, holds in facts.items():
             print(f"{'holds ' if holds else 'FAILS '} {name}")
             passed, failed = (passed + 1, failed) if holds else (passed, [*failed, name])
-        for report in (right, spliced):
+        for report in (right, spliced, held):
             if report.misses():
                 print(report.text())
-        for number, (name, make, expected) in enumerate(FAULTS):
+        for number, (name, make, expected) in enumerate([*FAULTS, *HELD_FAULTS]):
             folder = Path(scratch, f"fault-{number:02}")
             make().write(folder)
             misses = check(folder).misses()
