@@ -52,7 +52,7 @@ def strip_ends(job: Job, strip: Strip, region: shapely.Polygon) -> list[End]:
     """The ends of a strip at node axes, each with its last fin alone."""
     ends = []
     for place, k, other in strip.ends():
-        ends.append(End(strip.id, strip.nodes[k], other, _fin_of(job, strip, region, (k, place, other)), strip.setbacks[place]))
+        ends.append(End(strip.id, strip.nodes[k], other, _fin_of(job, strip, (k, place, other), region, ROOM), strip.setbacks[place]))
     return ends
 
 
@@ -61,7 +61,7 @@ def strip_leaves(job: Job, strip: Strip, region: shapely.Polygon) -> list[Leaf]:
     last = len(strip.nodes) - 1
     seen = [(k, 0, strip.nodes[k + 1]) for k in range(last)]
     seen += [(k, place, other) for k, place in ((0, 1), (last, 0)) if (other := strip.across_splice(at_start=place == 1)) is not None]
-    return [Leaf(strip.id, strip.nodes[k], other, _fin_of(job, strip, region, (k, place, other))) for k, place, other in seen]
+    return [Leaf(strip.id, strip.nodes[k], other, _fin_of(job, strip, (k, place, other), region, 0.0)) for k, place, other in seen]
 
 
 def far_corners(job: Job, node: int, other: int) -> Array:
@@ -77,13 +77,13 @@ def near_corners(job: Job, node: int) -> Array:
     return np.column_stack([np.zeros(2), ends @ job.space.axes[node]])
 
 
-def _fin_of(job: Job, strip: Strip, region: shapely.Polygon, leaf: tuple[int, int, int]) -> shapely.Polygon:
-    """A strip in the frame of its k-th axis, looking on (place 0) or back (1), without its other fins."""
-    k, place, other = leaf
+def _fin_of(job: Job, strip: Strip, fin: tuple[int, int, int], region: shapely.Polygon, behind: float) -> shapely.Polygon:
+    """A strip in the frame of its k-th axis, looking on (place 0) or back (1), without its other fins, but with what is just behind the axis."""
+    k, place, other = fin
     turned = _turned(job, region, (strip.nodes[k], strip.bottoms[k], strip.tops[k]), place)
     (low, high), (far_low, far_high) = near_corners(job, strip.nodes[k]), far_corners(job, strip.nodes[k], other)
     up = (far_high - far_low) / np.linalg.norm(far_high - far_low)
-    return turned.intersection(shapely.Polygon([low - ROOM, far_low - ROOM * up, far_high + ROOM * up, high + [-ROOM, ROOM]]))
+    return turned.intersection(shapely.Polygon([low - [behind, ROOM], far_low - ROOM * up, far_high + ROOM * up, high + [-behind, ROOM]]))
 
 
 def _turned(job: Job, region: shapely.Polygon, axis: tuple[int, Array, Array], place: int) -> shapely.Polygon:

@@ -117,7 +117,7 @@ class Runner:
         checked = subprocess.run([sys.executable, str(HERE / "check_job.py"), folder], cwd=self.scratch, capture_output=True, text=True, check=False)
         print(checked.stdout + checked.stderr, end="")
         self.note(case.name, checked.returncode == 0, f"{how}made in {built:.1f} s, checked in {time.monotonic() - start - built:.1f} s")
-        if "--joint" in case.arguments:
+        if '"connector"' in (self.scratch / folder / "job.json").read_text("utf-8"):
             self.verify(case, folder)
         if again:
             self.compare(case, folder)
