@@ -35,15 +35,22 @@ class Strip:
         return before, after
 
     def across_splice(self, at_start: bool) -> int | None:
-        node = self.nodes[0] if at_start else self.nodes[-1]
+        """The far node of the fin that a splice cuts beside the first or last axis; splices list it in the order of travel."""
+        k = 0 if at_start else -1
         for i, j in self.splices:
-            if len(self.nodes) == 1:
-                # Nothing but the order of travel in which the fin is listed tells on which side it lies.
-                if (node == j) if at_start else (node == i):
-                    return i if at_start else j
-            elif node in (i, j) and (self.nodes[1] if at_start else self.nodes[-2]) not in (i, j):
-                return j if node == i else i
+            here, there = (j, i) if at_start else (i, j)
+            # A ring cut beside the node it is opened at has that fin's nodes at both ends.
+            if here == self.nodes[k] and (there != self.nodes[-1 - k] or self._goes_on(at_start)):
+                return there
         return None
+
+    def _goes_on(self, at_start: bool) -> bool:
+        """Whether there is material just beyond the first or last axis."""
+        bottom, top = (self.bottoms[0], self.tops[0]) if at_start else (self.bottoms[-1], self.tops[-1])
+        up = (top - bottom) / np.linalg.norm(top - bottom)
+        outward = np.array([-up[1], up[0]]) * (1 if at_start else -1)
+        points = np.linspace(bottom, top, 9)[1:-1] + outward
+        return bool(shapely.contains_xy(self.outline, points).any())
 
     def ends(self) -> list[tuple[int, int, int]]:
         """Where the strip ends at an axis and not at a splice: first (0) or last (1), which of its nodes, and the node before."""

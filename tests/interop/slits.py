@@ -75,13 +75,14 @@ def check_slits(job: Job, report: Report) -> None:
             if slit := strip.slit_at(k):
                 _check_listed(job, node, strip, k, slit, report)
                 _check_outline(strip, k, slit, report)
-            elif k in (0, len(strip.nodes) - 1):
-                _check_set_back(node, strip, k, report)
         if node.node in job.connected:
             _check_in_discs(node, report)
         else:
             _check_node(node, [place for place in unheld if node.node in place["nodes"]], report)
     for strip in job.strips.values():
+        for end in strip.ends():
+            if not strip.slit_at(end[1]):
+                _check_set_back(nodes[strip.nodes[end[1]]], strip, end, report)
         at = Counter(slit["node"] for slit in strip.slits)
         inner = strip.nodes[:-1] if strip.closed else strip.nodes
         found = [f"{strip.id}: {n} slits at node {node}" for node, n in at.items() if n > inner.count(node)]
@@ -158,18 +159,15 @@ def _wall_end(ring: Array, side: float, station: float) -> float:
     return end
 
 
-def _check_set_back(node: Node, strip: Strip, k: int, report: Report) -> None:
+def _check_set_back(node: Node, strip: Strip, end: tuple[int, int, int], report: Report) -> None:
     """An end that is not lapped stops short of whatever else meets at the axis."""
-    before, after = strip.sides(k)
-    if strip.closed is False and None not in (before, after):
-        return
-    inner = after if k == 0 else before
-    reach = node.reach(node.job.space.angle(node.node, inner))
+    place, k, before = end
+    reach = node.reach(node.job.space.angle(node.node, before))
     if reach <= MEASURED or len(node.job.space.neighbours[node.node]) < 2:
         return
     bottom, top = strip.bottoms[k], strip.tops[k]
     up = (top - bottom) / np.linalg.norm(top - bottom)
-    inward = np.array([up[1], -up[0]]) * (1 if k == 0 else -1)
+    inward = np.array([up[1], -up[0]]) * (1 if place == 0 else -1)
     zone = shapely.Polygon([bottom - reach * inward, bottom + (reach - MEASURED) * inward, top + (reach - MEASURED) * inward, top - reach * inward])
     report.claim("slits: other ends set back", [f"{strip.id} reaches into node {node.node}"] if strip.outline.intersects(zone) else [])
 
