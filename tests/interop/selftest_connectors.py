@@ -1,4 +1,4 @@
-"""Faults planted in a job of single fins and hubs made by a finwright binary: `python selftest.py BINARY` runs them too."""
+"""Faults planted in jobs with hubs made by a finwright binary, of single fins and of strips: `python selftest.py BINARY` runs them too."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ Array = np.ndarray
 Move = Callable[[Array], Array]  # of points in part coordinates
 Fault = tuple[str, Callable[[Path, dict], None], str]
 
-NODE_FINS = 4  # of the connector that is spoilt
+NODE_FINS = 4  # at the least, of the connector that is spoilt
 
 
 def redrawn(folder: Path, manifest: dict, part: dict, move: Move) -> None:
@@ -52,19 +52,23 @@ def _turn(place: dict) -> tuple[Array, Array]:
 
 
 def spoilt(manifest: dict) -> dict:
-    return next(part for part in manifest["parts"] if part.get("connector") and len(part["connector"]["fins"]) == NODE_FINS)
+    return next(part for part in manifest["parts"] if part.get("connector") and len(part["connector"]["fins"]) >= NODE_FINS)
 
 
-def fin_at(manifest: dict) -> tuple[dict, int, dict]:
-    """A fin of the spoilt connector, which of its ends is there, and the connector."""
+def end_at(manifest: dict) -> tuple[dict, int, dict]:
+    """A fin or strip of the spoilt connector, which of its ends is there, and the connector."""
     connector = spoilt(manifest)["connector"]
-    fin = next(part for part in manifest["parts"] if part["id"] == connector["fins"][1][0])
-    return fin, fin["fin"]["nodes"].index(connector["node"]), connector
+    part = next(part for part in manifest["parts"] if part["id"] == connector["fins"][1][0])
+    return part, 0 if listing(part)["nodes"][0] == connector["node"] else 1, connector
 
 
-def in_end(fin: dict, end: int, move: Move) -> Move:
-    """A move in the frame of one end: from the axis into the fin, and up the axis from its bottom."""
-    axis = fin["fin"]["axes"][end]
+def listing(part: dict) -> dict:
+    return part.get("fin") or part["strip"]
+
+
+def in_end(part: dict, end: int, move: Move) -> Move:
+    """A move in the frame of one end: from the axis into the part, and up the axis from its bottom."""
+    axis = listing(part)["axes"][-end]
     bottom, top = np.array(axis["bottom"], float), np.array(axis["top"], float)
     up = (top - bottom) / np.linalg.norm(top - bottom)
     frame = np.column_stack([np.array([up[1], -up[0]]) * (1 if end == 0 else -1), up])
@@ -84,7 +88,7 @@ def fins_swapped(_: Path, manifest: dict) -> None:
 
 def notch_moved(folder: Path, manifest: dict) -> None:
     """The notch for the upper ring, 0.5 mm toward the axis."""
-    fin, end, connector = fin_at(manifest)
+    part, end, connector = end_at(manifest)
     slot = connector["slots"][1]
     near, far = connector["radius"] - slot["length"] / 2, connector["radius"] + 1
 
@@ -92,7 +96,7 @@ def notch_moved(folder: Path, manifest: dict) -> None:
         notch = (points[:, 0] > near) & (points[:, 0] < far) & (points[:, 1] > 15)
         return points - np.outer(notch, [0.5, 0])
 
-    redrawn(folder, manifest, fin, in_end(fin, end, move))
+    redrawn(folder, manifest, part, in_end(part, end, move))
 
 
 def window_narrowed(folder: Path, manifest: dict) -> None:
@@ -111,13 +115,14 @@ def window_narrowed(folder: Path, manifest: dict) -> None:
 
 
 def reaching(by: float, listed: bool) -> Callable[[Path, dict], None]:
-    """The end of a fin so much nearer to the axis."""
+    """The end of a fin or strip so much nearer to the axis."""
 
     def plant(folder: Path, manifest: dict) -> None:
-        fin, end, _ = fin_at(manifest)
-        start = fin["fin"]["setbacks"][end]
-        redrawn(folder, manifest, fin, in_end(fin, end, lambda points: points - np.outer(points[:, 0] < start + 0.3, [by, 0])))
-        fin["fin"]["setbacks"][end] -= by * listed
+        part, end, _ = end_at(manifest)
+        setbacks = listing(part)["setbacks"]
+        start = setbacks[end]
+        redrawn(folder, manifest, part, in_end(part, end, lambda points: points - np.outer(points[:, 0] < start + 0.3, [by, 0])))
+        setbacks[end] -= by * listed
 
     return plant
 
@@ -132,7 +137,7 @@ def plate_raised(_: Path, manifest: dict) -> None:
     spoilt(manifest)["connector"]["copies"][0]["height"] += 0.5
 
 
-def disc_forgotten(_: Path, manifest: dict) -> None:
+def step_forgotten(_: Path, manifest: dict) -> None:
     manifest["assembly"].pop(0)
 
 
@@ -144,18 +149,24 @@ LISTED: list[Fault] = [
     ("slot turned by 0.5 degrees", slot_turned, "connectors: slot angles"),
     ("two fins swapped", fins_swapped, "connectors: slot angles"),
 ]
-FAULTS: list[Fault] = [
+AT_ENDS: list[Fault] = [
     *LISTED,
     ("notch moved by 0.5 mm", notch_moved, "assembly: fins clear of plates"),
     ("window narrowed by 0.1 mm", window_narrowed, "connectors: slot cut as wide as listed"),
     ("window narrowed, its fin tight", window_narrowed, "assembly: clearance beside fins"),
-    ("fin reaches in by 1 mm", reaching(1.0, listed=False), "fins: setback as listed"),
+    ("end reaches in by 1 mm", reaching(1.0, listed=False), "fins: setback as listed"),
     ("setback under the least", reaching(4.0, listed=True), "fins: setback over the least"),
-    ("two shapes under one name", shape_shared, "fins: one shape, one outline"),
     ("disc 0.5 mm too high", plate_raised, "assembly: fins clear of plates"),
-    ("disc in no step", disc_forgotten, "assembly: steps of fins and plates"),
+    ("part in no step", step_forgotten, "assembly: steps of fins and plates"),
+]
+OF_FINS: list[Fault] = [
+    ("two shapes under one name", shape_shared, "fins: one shape, one outline"),
     ("node without its connector", connector_missing, "connectors: one set at each node"),
 ]
+JOBS: dict[str, tuple[list[str], list[Fault]]] = {
+    "fins in hubs": (["three", "--joint", "hub"], [*AT_ENDS, *OF_FINS]),
+    "strips in hubs": (["five", "--effort", "quick"], AT_ENDS),
+}
 
 
 def planted(right: Path, folder: Path, plant: Callable[[Path, dict], None]) -> None:
@@ -174,19 +185,22 @@ def misses(folder: Path) -> list[str]:
 
 def facts(binary: Path, scratch: Path) -> dict[str, bool]:
     """What should hold, by a sentence that says so."""
-    right = scratch / "hub"
-    made = subprocess.run([str(binary), "make", "three", "--joint", "hub", "-q", "-o", str(right)], capture_output=True, text=True, check=False)
-    if made.returncode != 0:
-        return {f"hub: made ({made.stderr.strip()[-200:]})": False}
-    before = misses(right)
-    found = {"hub: a right job passes" + (f" ({', '.join(before)})" if before else ""): not before, "hub: verify ends with 0": _verified(binary, right) == 0}
-    for number, (name, plant, expected) in enumerate(FAULTS):
-        folder = scratch / f"hub-fault-{number:02}"
-        planted(right, folder, plant)
-        after = misses(folder)
-        found[f"hub: {name}: {expected} is missed"] = expected in after and expected not in before
-        if (name, plant, expected) in LISTED:
-            found[f"hub: {name}: verify ends with 3"] = _verified(binary, folder) == 3
+    found: dict[str, bool] = {}
+    for job, (words, faults) in JOBS.items():
+        right = scratch / job.replace(" ", "-")
+        made = subprocess.run([str(binary), "make", *words, "-q", "-o", str(right)], capture_output=True, text=True, check=False)
+        if made.returncode != 0:
+            found[f"{job}: made ({made.stderr.strip()[-200:]})"] = False
+            continue
+        before = misses(right)
+        found[f"{job}: a right job passes{': ' * bool(before)}{', '.join(before)}"] = not before
+        found[f"{job}: verify ends with 0"] = _verified(binary, right) == 0
+        for number, (name, plant, expected) in enumerate(faults):
+            folder = scratch / f"{right.name}-fault-{number:02}"
+            planted(right, folder, plant)
+            found[f"{job}: {name}: {expected} is missed"] = expected in misses(folder) and expected not in before
+            if (name, plant, expected) in LISTED:
+                found[f"{job}: {name}: verify ends with 3"] = _verified(binary, folder) == 3
     return found
 
 
