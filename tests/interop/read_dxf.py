@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import lru_cache
 from pathlib import Path
 
 import ezdxf
@@ -13,27 +14,38 @@ from segments import Drawing, arc_points
 
 def read_dxf(path: Path, report: Report) -> Drawing:
     """Reads the file, judges what only a DXF can have wrong, and returns its geometry."""
+    state = path.stat()
+    drawing, claims = _read(path, state.st_mtime_ns, state.st_size)
+    for name, problems in claims.items():
+        report.claim(name, problems)
+    return drawing
+
+
+@lru_cache(maxsize=None)
+def _read(path: Path, _changed: int, _size: int) -> tuple[Drawing, dict[str, list[str]]]:
+    """Read once, for several checks ask: ezdxf takes its time."""
     document = ezdxf.readfile(path)
     audit = document.audit()
-    report.claim("dxf: audit errors", [f"{path.name}: {error.message}" for error in audit.errors])
-    report.claim("dxf: audit fixes", [f"{path.name}: {fix.message}" for fix in audit.fixes])
-    report.claim("dxf: millimetres declared", _unit_problems(path))
-    report.claim("dxf: layers and colours", _layer_problems(document, path.name))
     drawing = Drawing(None, None)
     for entity in document.modelspace():
         _add(drawing, entity)
     extra = [block.name for block in document.blocks if not block.is_any_layout]
     paper = [layout.name for layout in document.layouts if not layout.is_modelspace and len(layout)]
     drawing.problems += [f"block {name}" for name in extra] + [f"something on paper {name}" for name in paper]
-    report.claim("dxf: polylines and lines only", [f"{path.name}: {problem}" for problem in drawing.problems])
     open_cuts = [
         f"{path.name}: {layer} near ({stroke.points[0][0]:.3f}, {stroke.points[0][1]:.3f})"
         for layer in ("CUT_INNER", "CUT_OUTER")
         for stroke in drawing.layers.get(layer, [])
         if not stroke.closed
     ]
-    report.claim("dxf: cuts are closed", open_cuts)
-    return drawing
+    return drawing, {
+        "dxf: audit errors": [f"{path.name}: {error.message}" for error in audit.errors],
+        "dxf: audit fixes": [f"{path.name}: {fix.message}" for fix in audit.fixes],
+        "dxf: millimetres declared": _unit_problems(path),
+        "dxf: layers and colours": _layer_problems(document, path.name),
+        "dxf: polylines and lines only": [f"{path.name}: {problem}" for problem in drawing.problems],
+        "dxf: cuts are closed": open_cuts,
+    }
 
 
 def _add(drawing: Drawing, entity) -> None:
