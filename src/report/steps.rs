@@ -3,6 +3,7 @@
 use crate::job::Job;
 use crate::parts::{Body, Connector, ConnectorBody, Opening, Part, insertion};
 use crate::template::Template;
+use std::collections::BTreeSet;
 
 /// One part of a strip that goes in, or a connector with the fins that are new at it.
 #[derive(Debug, Clone, PartialEq)]
@@ -88,7 +89,11 @@ fn connected(job: &Job, part: usize, body: &ConnectorBody, new: Vec<usize>) -> S
     let made = &job.parts[part];
     let fins: Vec<String> = new.iter().map(|&fin| job.parts[fin].id.clone()).collect();
     let stand = body.fins.iter().filter(|id| !fins.contains(id));
-    let onto: Vec<(usize, String)> = stand.map(|id| (body.node(), id.clone())).collect();
+    let mut onto: Vec<(usize, String)> =
+        stand.map(|id| (body.node(), id.clone())).collect();
+    // A ring comes there with both its ends.
+    let mut told = BTreeSet::new();
+    onto.retain(|(_, id)| told.insert(id.clone()));
     let strips = job.has(|body| matches!(body, Body::Strip(_)));
     let words = match strips {
         true => held(&made.id),
