@@ -36,9 +36,6 @@ class Body:
         self.points = np.concatenate([flat + level for level in levels])
         self.low, self.high = self.points.min(axis=0), self.points.max(axis=0)
 
-    def may_meet(self, other: Body) -> bool:
-        return not self.nodes & other.nodes and bool((self.low < other.high).all() and (other.low < self.high).all())
-
     def points_inside(self, other: Body) -> int:
         """How many points of another body's edges lie in this one."""
         near = other.points[((other.points > self.low) & (other.points < self.high)).all(axis=1)]
@@ -50,11 +47,14 @@ class Body:
 def check_bodies(plates: Plates, report: Report) -> None:
     held = [_plate(plates, connector, copy) for connector in plates.all() for copy in range(len(connector.cut))]
     leaves = [_leaf(plates, leaf) for leaf in plates.leaves]
-    for k, plate in enumerate(held):
-        for name, others in (("assembly: neighbours' plates apart", held[k + 1 :]), ("assembly: plates clear of other fins", leaves)):
-            met = [other for other in others if plate.may_meet(other)]
-            inside = [(other, plate.points_inside(other) + other.points_inside(plate)) for other in met]
-            report.claim(name, [f"{plate.name} and {other.name} ({count} points)" for other, count in inside if count], len(met))
+    for name, bodies in (("assembly: neighbours' plates apart", held), ("assembly: plates clear of other fins", leaves)):
+        boxes = np.array([[body.low, body.high] for body in bodies])
+        for k, plate in enumerate(held):
+            near = ((boxes[:, 0] < plate.high) & (plate.low < boxes[:, 1])).all(axis=1)
+            near[: k * (bodies is held)] = False  # looked at from the other one already
+            others = [bodies[at] for at in np.flatnonzero(near) if not plate.nodes & bodies[at].nodes]
+            inside = [(other, plate.points_inside(other) + other.points_inside(plate)) for other in others]
+            report.claim(name, [f"{plate.name} and {other.name} ({count} points)" for other, count in inside if count], len(others))
 
 
 def _plate(plates: Plates, connector: Connector, copy: int) -> Body:
