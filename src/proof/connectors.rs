@@ -154,7 +154,7 @@ impl<'a> Known<'a> {
             let meant = ends.iter().find(|&&to| Some(to) == slot.to);
             let to = *meant.or(ends.first())?;
             let from = stands.first().map_or(bearing(to), |first| bearing(first.to))?;
-            let angle_deg = (bearing(to)? - from).to_degrees();
+            let angle_deg = (bearing(to)? - from).to_degrees().rem_euclid(360.0);
             stands.push(Stand { fin: &slot.fin, to, angle_deg });
         }
         let all: BTreeSet<usize> = stands.iter().map(|stand| stand.to).collect();

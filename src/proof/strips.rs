@@ -346,8 +346,14 @@ impl<'a> Strips<'a> {
             .into_iter()
             .fold(f64::INFINITY, f64::min);
         let spot = (drawn.spot)(bottom).node(node);
-        (distance_mm < needed_mm - self.limits().axes_and_slits_mm)
-            .then_some(ProofFinding::EndInTheWay { spot, distance_mm, needed_mm })
+        let limit = self.limits().axes_and_slits_mm;
+        let listed = strip.setbacks[usize::from(place > 0)];
+        if distance_mm < needed_mm - limit {
+            Some(ProofFinding::EndInTheWay { spot, distance_mm, needed_mm })
+        } else {
+            ((distance_mm - listed).abs() > limit)
+                .then_some(ProofFinding::BadList { spot })
+        }
     }
 
     /// Where the axes of all strips come to lie in space.

@@ -44,6 +44,9 @@ fn step(job: &Job, part: usize, template: &Template) -> Option<Step> {
     let bend = way.and_then(|way| way.bend);
     let is_tight = bend.is_some_and(|(radius, _)| ratio(radius) < template.bend.model);
     let words = match (way, bend) {
+        (None, _) if body.slits.is_empty() => {
+            "Set its ends into the windows of their discs.".to_owned()
+        }
         (None, _) => "Stand it in its place; its open slits look up.".to_owned(),
         (Some(way), _) if way.is_rigid => {
             "Push it straight down; all its slits slide at once.".to_owned()
@@ -63,13 +66,29 @@ fn step(job: &Job, part: usize, template: &Template) -> Option<Step> {
 pub(super) fn steps(job: &Job, template: &Template) -> Vec<Step> {
     let mut steps = Vec::new();
     let mut new: Vec<usize> = Vec::new();
-    for &crate::parts::Step { part, copies } in &job.steps {
+    let strips = job.has(|body| matches!(body, Body::Strip(_)));
+    let (mut laid, mut below) = (BTreeSet::new(), Vec::new());
+    for (k, &crate::parts::Step { part, copies }) in job.steps.iter().enumerate() {
         let made = &job.parts[part];
+        let alone = || job.steps.get(k + 1).is_some_and(|next| next.part != part);
         match &made.body {
-            Body::Strip(_) => steps.extend(step(job, part, template)),
+            Body::Strip(_) => {
+                let below = std::mem::take(&mut below);
+                steps.extend(
+                    step(job, part, template).map(|step| onto_discs(step, &below)),
+                );
+            }
             Body::Fin(_) => new.push(part),
             Body::Connector(body) if copies[1] == made.quantity => {
-                steps.push(connected(job, part, body, std::mem::take(&mut new)));
+                let words = match strips {
+                    true => Some(held(&made.id, laid.contains(&part))),
+                    false => None,
+                };
+                steps.push(connected(job, part, (body, words), std::mem::take(&mut new)));
+            }
+            Body::Connector(_) if strips && alone() => {
+                laid.insert(part);
+                below.push(made.id.as_str());
             }
             Body::Connector(_) | Body::Coupon => {}
         }
@@ -85,7 +104,12 @@ pub(super) fn steps(job: &Job, template: &Template) -> Vec<Step> {
 }
 
 /// A connector with the fins that are new at it.
-fn connected(job: &Job, part: usize, body: &ConnectorBody, new: Vec<usize>) -> Step {
+fn connected(
+    job: &Job,
+    part: usize,
+    (body, words): (&ConnectorBody, Option<String>),
+    new: Vec<usize>,
+) -> Step {
     let made = &job.parts[part];
     let fins: Vec<String> = new.iter().map(|&fin| job.parts[fin].id.clone()).collect();
     let stand = body.fins.iter().filter(|id| !fins.contains(id));
@@ -94,21 +118,31 @@ fn connected(job: &Job, part: usize, body: &ConnectorBody, new: Vec<usize>) -> S
     // A ring comes there with both its ends.
     let mut told = BTreeSet::new();
     onto.retain(|(_, id)| told.insert(id.clone()));
-    let strips = job.has(|body| matches!(body, Body::Strip(_)));
-    let words = match strips {
-        true => held(&made.id),
-        false => words(made, &fins, &body.connector),
-    };
+    let words = words.unwrap_or_else(|| self::words(made, &fins, &body.connector));
     let parts = std::iter::once(part).chain(new).collect();
     Step { parts, onto, words, is_tight: false }
 }
 
+/// The step of a strip that no slit holds; it begins with the lower discs at its ends.
+fn onto_discs(step: Step, below: &[&str]) -> Step {
+    let words = match below {
+        [] => step.words,
+        discs => format!(
+            "First one disc {} in its place, letters up, for the ends that nothing else holds. {}",
+            discs.join(" and one disc "),
+            step.words
+        ),
+    };
+    Step { words, ..step }
+}
+
 /// Discs at the ends of strips.
-fn held(id: &str) -> String {
-    format!(
-        "Push one disc {id} on from below and one from above, letters up, over the ends as they \
-         are lettered, and bolt the rod."
-    )
+fn held(id: &str, is_laid: bool) -> String {
+    let how = match is_laid {
+        true => format!("Push the other disc {id} on from above"),
+        false => format!("Push one disc {id} on from below and one from above"),
+    };
+    format!("{how}, letters up, over the ends as they are lettered, and bolt the rod.")
 }
 
 fn words(connector: &Part, fins: &[String], kind: &Connector) -> String {

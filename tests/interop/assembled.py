@@ -130,13 +130,15 @@ def _check_steps(plates: Plates, report: Report) -> None:
 
 
 def _step_problems(plates: Plates, connector: Connector, step: dict[tuple[str, int], int]) -> list[str]:
-    """A hub's lower disc goes in before its fins, its upper disc after them; strips come first of all, as they hold each other."""
-    held = sorted(step[end.part, 1] for end in plates.ends[connector.node])
+    """A hub's upper disc goes in last; its lower disc before the fins, or strips, that nothing else holds: those without a slit."""
+    ends = [end.part for end in plates.ends[connector.node]]
+    held = sorted(step[part, 1] for part in ends)
     first, last = step[connector.part, 1], step[connector.part, len(connector.cut)]
     if connector.kind == "hinge":
         return [f"{connector.part}: its rod goes in before the last fin"] if first < held[-1] else []
-    after_strips = [step[strip, 1] for strip in plates.job.strips]
-    right = max(after_strips) < first < last if after_strips else first < held[0] <= held[-1] < last
+    strips = plates.job.strips
+    loose = [step[part, 1] for part in ends if part not in strips or not strips[part].slits]
+    right = first < min(loose, default=last) and max(first, held[-1]) < last
     return [] if right else [f"{connector.part}: discs at steps {first} and {last}, fins at {held}"]
 
 

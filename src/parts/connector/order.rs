@@ -13,56 +13,107 @@ pub struct Step {
     pub copies: [usize; 2],
 }
 
-/// Strips go in as they are ranked, then the discs at their ends, each from its side.
+/// Strips go in as they are ranked, one that no slit holds after the lower discs at its ends;
+/// the discs that are left follow, each from its side.
 ///
 /// The lower disc of a hub comes before its first fin, the upper disc after its last, and so
 /// do all eyes of a hinge with their rod; fins follow in the order of a walk over the
 /// structure, so that what stands hangs together.
 pub fn steps(parts: &[Part]) -> Vec<Step> {
-    let mut discs: BTreeMap<usize, usize> = BTreeMap::new();
-    let mut left: BTreeMap<usize, usize> = BTreeMap::new();
-    let mut at: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
-    let mut steps = Vec::new();
+    let mut plan = Plan::new(parts);
     for (index, part) in parts.iter().enumerate() {
-        match &part.body {
-            Body::Fin(fin) => {
-                for node in fin.nodes {
-                    at.entry(node).or_default().push(index);
-                    *left.entry(node).or_default() += 1;
-                }
-            }
-            Body::Connector(connector) => {
-                discs.insert(connector.node(), index);
-            }
-            Body::Strip(_) => steps.push(Step { part: index, copies: [1, 1] }),
-            Body::Coupon => {}
+        let Body::Strip(strip) = &part.body else { continue };
+        if strip.slits.is_empty() {
+            let nodes = part.body.tips().into_iter().map(|tip| tip.axis.node);
+            plan.lay_below(nodes);
         }
+        plan.steps.push(Step { part: index, copies: [1, 1] });
     }
-    let is_hub = |part: &usize| match &parts[*part].body {
-        Body::Connector(body) => matches!(body.connector, Connector::Hub(_)),
-        _ => false,
-    };
-    let mut lower = discs.clone();
-    lower.retain(|_, part| is_hub(part));
-    for fin in walk(parts, &at) {
+    for fin in walk(parts, &plan.at) {
         let Body::Fin(body) = &parts[fin].body else { continue };
-        let below = body.nodes.iter().filter_map(|node| lower.remove(node));
-        steps.extend(below.map(|part| Step { part, copies: [1, 1] }));
-        steps.push(Step { part: fin, copies: [1, 1] });
+        plan.lay_below(body.nodes.into_iter());
+        plan.steps.push(Step { part: fin, copies: [1, 1] });
         for node in body.nodes {
-            let left = left.entry(node).or_default();
-            *left -= 1;
-            if let (0, Some(&part)) = (*left, discs.get(&node)) {
-                let first = if is_hub(&part) { 2 } else { 1 };
-                steps.push(Step { part, copies: [first, parts[part].quantity] });
-            }
+            plan.stand(node);
         }
     }
-    let at_strips = lower.into_values().flat_map(|part| {
-        [[1, 1], [2, parts[part].quantity]].map(|copies| Step { part, copies })
-    });
-    steps.extend(at_strips);
-    steps
+    plan.close();
+    plan.steps
+}
+
+/// Steps as they are put together.
+struct Plan<'a> {
+    parts: &'a [Part],
+    steps: Vec<Step>,
+    /// Fins by their nodes.
+    at: BTreeMap<usize, Vec<usize>>,
+    /// Fins that are still to come, by node.
+    left: BTreeMap<usize, usize>,
+    /// Connectors that are not finished, by node.
+    open: BTreeMap<usize, usize>,
+    /// Hubs whose lower disc is still to come, by node.
+    lower: BTreeMap<usize, usize>,
+}
+
+impl<'a> Plan<'a> {
+    fn new(parts: &'a [Part]) -> Self {
+        let mut at: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
+        let (mut open, mut lower) = (BTreeMap::new(), BTreeMap::new());
+        for (index, part) in parts.iter().enumerate() {
+            match &part.body {
+                Body::Fin(fin) => {
+                    fin.nodes
+                        .iter()
+                        .for_each(|node| at.entry(*node).or_default().push(index));
+                }
+                Body::Connector(body) => {
+                    open.insert(body.node(), index);
+                    if matches!(body.connector, Connector::Hub(_)) {
+                        lower.insert(body.node(), index);
+                    }
+                }
+                Body::Strip(_) | Body::Coupon => {}
+            }
+        }
+        let left = at.iter().map(|(node, fins)| (*node, fins.len())).collect();
+        Self { parts, steps: Vec::new(), at, left, open, lower }
+    }
+
+    /// Lays lower discs that are still to come.
+    fn lay_below(&mut self, nodes: impl Iterator<Item = usize>) {
+        for node in nodes {
+            let laid = self.lower.remove(&node);
+            self.steps.extend(laid.map(|part| Step { part, copies: [1, 1] }));
+        }
+    }
+
+    /// A fin stands at a node; the last one brings the rest of its connector.
+    fn stand(&mut self, node: usize) {
+        let left = self.left.entry(node).or_default();
+        *left -= 1;
+        if *left == 0 {
+            self.finish(node);
+        }
+    }
+
+    /// The plates of a node that are still to come.
+    fn finish(&mut self, node: usize) {
+        let Some(part) = self.open.remove(&node) else { return };
+        let is_hub = match &self.parts[part].body {
+            Body::Connector(body) => matches!(body.connector, Connector::Hub(_)),
+            _ => false,
+        };
+        self.lay_below(std::iter::once(node));
+        let first = if is_hub { 2 } else { 1 };
+        let copies = [first, self.parts[part].quantity];
+        self.steps.push(Step { part, copies });
+    }
+
+    /// The connectors that no fin finished: those of strips.
+    fn close(&mut self) {
+        let nodes: Vec<usize> = self.open.keys().copied().collect();
+        nodes.into_iter().for_each(|node| self.finish(node));
+    }
 }
 
 /// All fins, each beside one that came before if there is one.
