@@ -23,9 +23,13 @@ def check_listed_setbacks(job: Job, report: Report) -> None:
             report.claim("slits: setbacks listed", [f"{strip.id} has none"] if job.connected else [])
             continue
         ends = strip_ends(job, strip, strip.outline)
-        for end in (end for end in ends if end.node not in job.connected):
+        for end, (_, k, _) in zip(ends, strip.ends()):
+            if end.node in job.connected:
+                continue
             spans = end.spans(0.0)
             start = max(0.0, spans[0][0]) if spans else float("inf")
+            if strip.slit_at(k):  # It runs past its axis, where the slit may be.
+                start = 0.0
             report.at_most("slits: setbacks of ends as listed", abs(start - end.setback), MEASURED, f"{strip.id} at node {end.node}")
         at_splices = {0, 1} - {place for place, _, _ in strip.ends()}
         report.claim("slits: setbacks listed", [f"{strip.id}: {strip.setbacks} beside a splice" for place in at_splices if strip.setbacks[place] != 0.0])
