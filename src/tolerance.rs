@@ -88,6 +88,10 @@ pub const MODE_RESIDUAL: f64 = 1e-9;
 /// Brackets of the amplification narrower than this, upper over lower, are not tightened.
 pub const BRACKET_WIDTH: f64 = 1.1;
 
+/// Sways that differ by less than this share are equal where a choice hangs on it: symmetric
+/// nodes sway alike but for rounding.
+pub const SAME_SWAY: f64 = 1e-6;
+
 /// A vector that shrinks below this share of its length when made orthogonal is gone.
 pub const VANISHED: f64 = 1e-10;
 

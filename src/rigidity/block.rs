@@ -11,12 +11,24 @@ use faer::{Accum, Mat, MatMut, MatRef, Par};
 const ROWS: usize = 512;
 
 /// Vectors as columns, stored row by row.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, PartialEq)]
 pub(super) struct Block {
     pub(super) rows: usize,
     pub(super) columns: usize,
     /// `rows * columns` numbers.
     pub(super) values: Vec<f64>,
+}
+
+impl Clone for Block {
+    fn clone(&self) -> Self {
+        Self { values: self.values.clone(), ..*self }
+    }
+
+    // Keeps the room.
+    fn clone_from(&mut self, other: &Self) {
+        (self.rows, self.columns) = (other.rows, other.columns);
+        self.values.clone_from(&other.values);
+    }
 }
 
 impl Block {
@@ -114,7 +126,7 @@ pub(super) fn orthonormal(block: &mut Block) -> Mat<f64> {
 
 /// The upper triangular `R` of `RᵀR = products` and its inverse; `None` if a column nearly
 /// depends on those before.
-fn triangle(products: &Mat<f64>) -> Option<(Mat<f64>, Mat<f64>)> {
+pub(super) fn triangle(products: &Mat<f64>) -> Option<(Mat<f64>, Mat<f64>)> {
     let n = products.ncols();
     let mut factor = Mat::<f64>::zeros(n, n);
     let mut inverse = Mat::<f64>::zeros(n, n);

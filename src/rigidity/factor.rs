@@ -6,11 +6,12 @@
 //! results are the same bits on one thread and on many.
 
 use crate::rigidity::front::Work;
-use crate::rigidity::panel::Columns;
+use crate::rigidity::panel::{Columns, pack};
 use crate::rigidity::side::side_by_side;
-use crate::rigidity::symbolic::Symbolic;
+use crate::rigidity::symbolic::{Supernode, Symbolic};
 use crate::watch::Watch;
 use std::ops::Range;
+use std::sync::mpsc::channel;
 
 /// Where a symmetric matrix gets its entries from.
 pub(super) trait Entries: Sync {
@@ -49,6 +50,9 @@ impl Halt {
 /// Below so many unknowns threads cost more than they save.
 const FEW: usize = 5000;
 
+/// Fronts of the trunk that are gathered before they are needed.
+const AHEAD: usize = 2;
+
 /// A Cholesky factor.
 pub(super) struct Factor<'a> {
     pub(super) symbolic: &'a Symbolic,
@@ -61,26 +65,6 @@ pub(super) struct Factor<'a> {
     /// Per supernode its shelf, and where on it its columns begin.
     spots: Vec<(u32, usize)>,
     pub(super) threads: usize,
-}
-
-/// What supernodes hand to their parents, by supernode from `first` on.
-pub(super) struct Mail {
-    first: usize,
-    letters: Vec<Vec<f64>>,
-}
-
-impl Mail {
-    fn new(range: Range<usize>) -> Self {
-        Self { first: range.start, letters: vec![Vec::new(); range.len()] }
-    }
-
-    pub(super) fn put(&mut self, s: usize, letter: Vec<f64>) {
-        self.letters[s - self.first] = letter;
-    }
-
-    pub(super) fn take(&mut self, s: usize) -> Vec<f64> {
-        std::mem::take(&mut self.letters[s - self.first])
-    }
 }
 
 impl<'a> Factor<'a> {
@@ -100,23 +84,76 @@ impl<'a> Factor<'a> {
         let mut factor = Self { symbolic, branches, trunk, shelves, spots, threads };
         factor.assign_spots();
         let eliminate = |work: &mut Work, k: usize| {
-            let range = factor.range(k);
-            let mut mail = Mail::new(range.clone());
-            let shelf = shelf(range, work, entries, &mut mail)?;
-            Ok((shelf, mail.take(factor.branches[k])))
+            let shelf = branch_shelf(factor.range(k), work, entries)?;
+            Ok((shelf, work.last_letter(factor.branches[k])))
         };
         let fresh = || Work::new(symbolic, 1);
         let done = side_by_side(threads, factor.branches.len(), fresh, eliminate);
-        let mut mail = Mail::new(0..symbolic.supernodes.len());
+        let mut mail = vec![Vec::new(); symbolic.supernodes.len()];
         for (k, branch) in done.into_iter().enumerate() {
             let (shelf, update) = branch?;
             factor.shelves.push(shelf);
-            mail.put(factor.branches[k], update);
+            mail[factor.branches[k]] = update;
         }
-        let mut work = Work::new(symbolic, threads);
-        let last = shelf(factor.trunk.iter().copied(), &mut work, entries, &mut mail)?;
+        let last = factor.trunk_shelf(entries, &mail)?;
         factor.shelves.push(last);
         Ok(factor)
+    }
+
+    /// Eliminates the supernodes of the trunk; their columns one after another. A clerk
+    /// gathers the fronts to come and packs those that are done.
+    fn trunk_shelf(
+        &self,
+        entries: &dyn Entries,
+        mail: &[Vec<f64>],
+    ) -> Result<Vec<f64>, Singular> {
+        let (symbolic, trunk) = (self.symbolic, &self.trunk);
+        let mut work = Work::new(symbolic, self.threads);
+        work.make_room(trunk.iter().copied(), mail);
+        let room = trunk.iter().map(|&s| symbolic.supernodes[s].room());
+        let mut shelf = Vec::with_capacity(room.sum());
+        let mut gatherer = Work::new(symbolic, 1);
+        let mut gather = |s: usize, mut columns: Vec<f64>| {
+            gatherer.gather(s, entries, &mut columns);
+            columns
+        };
+        let mut put = |s: usize, columns: &[f64]| {
+            pack(columns, symbolic.supernodes[s].width, &mut shelf);
+        };
+        if self.threads < 2 {
+            let mut columns = Vec::new();
+            for &s in trunk {
+                columns = gather(s, columns);
+                work.eliminate(s, &mut columns, mail)?;
+                put(s, &columns);
+            }
+            return Ok(shelf);
+        }
+        let (to_clerk, done) = channel::<Vec<f64>>();
+        let (ready, from_clerk) = channel();
+        std::thread::scope(|scope| {
+            scope.spawn(move || {
+                let mut next = trunk.iter();
+                for &s in next.by_ref().take(AHEAD) {
+                    // Nobody listens any more if a front was singular.
+                    let _ = ready.send(gather(s, Vec::new()));
+                }
+                for (&s, columns) in trunk.iter().zip(done) {
+                    put(s, &columns);
+                    if let Some(&s) = next.next() {
+                        let _ = ready.send(gather(s, columns));
+                    }
+                }
+            });
+            // Gone when this ends, so that the clerk ends too.
+            let to_clerk = to_clerk;
+            for (&s, mut columns) in trunk.iter().zip(from_clerk) {
+                work.eliminate(s, &mut columns, mail)?;
+                let _ = to_clerk.send(columns);
+            }
+            Ok(())
+        })?;
+        Ok(shelf)
     }
 
     /// The supernodes of a branch.
@@ -148,17 +185,21 @@ impl<'a> Factor<'a> {
     }
 }
 
-/// Eliminates supernodes, children first; their columns one after another.
-fn shelf(
-    supernodes: impl Iterator<Item = usize> + Clone,
+/// Eliminates the supernodes of a branch; their columns one after another.
+fn branch_shelf(
+    range: Range<usize>,
     work: &mut Work,
     entries: &dyn Entries,
-    mail: &mut Mail,
 ) -> Result<Vec<f64>, Singular> {
-    let room = |s: usize| work.symbolic.supernodes[s].room();
-    let mut shelf = Vec::with_capacity(supernodes.clone().map(room).sum());
-    for s in supernodes {
-        work.eliminate(s, entries, (&mut shelf, mail))?;
+    work.make_room(range.clone(), &[]);
+    let nodes = &work.symbolic.supernodes;
+    let mut shelf =
+        Vec::with_capacity(nodes[range.clone()].iter().map(Supernode::room).sum());
+    let mut columns = Vec::new();
+    for s in range {
+        work.gather(s, entries, &mut columns);
+        work.eliminate(s, &mut columns, &[])?;
+        pack(&columns, nodes[s].width, &mut shelf);
     }
     Ok(shelf)
 }

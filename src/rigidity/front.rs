@@ -1,7 +1,6 @@
 //! One front: gathering, elimination, and the update for the parent.
 
-use crate::rigidity::factor::{Entries, Mail, Singular};
-use crate::rigidity::panel::pack;
+use crate::rigidity::factor::{Entries, Singular};
 use crate::rigidity::symbolic::{Supernode, Symbolic};
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::linalg::cholesky::llt::factor::{cholesky_in_place, cholesky_in_place_scratch};
@@ -11,8 +10,10 @@ use faer::linalg::triangular_solve::solve_lower_triangular_in_place;
 use faer::reborrow::{Reborrow, ReborrowMut};
 use faer::{Accum, MatMut, MatRef, Par};
 
-/// Products of more work than this are cut in two halves.
-const LARGE: f64 = 2e7;
+/// Fronts of more work than this are made in parts.
+const LARGE: f64 = 2e8;
+/// Columns of a large front that are made together.
+const TOGETHER: usize = 128;
 
 /// What one thread works with.
 pub(super) struct Work<'a> {
@@ -20,10 +21,21 @@ pub(super) struct Work<'a> {
     threads: usize,
     /// By place of a group, its first row in the present front.
     local: Vec<u32>,
-    /// Buffers of updates that were taken in, to be used again.
-    spare: Vec<Vec<f64>>,
-    /// The columns of the present front.
-    columns: Vec<f64>,
+    /// Updates that wait for their parents, on two stacks: of supernodes at even depth and
+    /// at odd depth, so that a front reads from one and writes to the other.
+    stacks: [Vec<f64>; 2],
+    /// How much of each is in use.
+    tops: [usize; 2],
+    scratch: MemBuffer,
+}
+
+/// The update of a supernode, of which the lower triangle counts.
+#[derive(Clone, Copy)]
+pub(super) struct Letter<'a> {
+    pub(super) child: &'a Supernode,
+    pub(super) values: &'a [f64],
+    /// Whether the columns begin at the diagonal.
+    pub(super) packed: bool,
 }
 
 /// One side of a front: its own columns, or the update.
@@ -41,9 +53,41 @@ impl<'a> Work<'a> {
             symbolic,
             threads,
             local: vec![0; symbolic.place.len()],
-            spare: Vec::new(),
-            columns: Vec::new(),
+            stacks: [Vec::new(), Vec::new()],
+            tops: [0, 0],
+            scratch: MemBuffer::new(faer::dyn_stack::StackReq::EMPTY),
         }
+    }
+
+    /// Makes room for the updates of some supernodes, children first, whose children are
+    /// among them or have their letters in the `mail`.
+    pub(super) fn make_room(
+        &mut self,
+        supernodes: impl Iterator<Item = usize>,
+        mail: &[Vec<f64>],
+    ) {
+        let nodes = &self.symbolic.supernodes;
+        let (mut tops, mut most) = ([0_usize; 2], [0_usize; 2]);
+        let mut widest = 0;
+        for s in supernodes {
+            let node = &nodes[s];
+            let own = usize::from(node.odd);
+            tops[own] += node.below * node.below;
+            most[own] = most[own].max(tops[own]);
+            let gone =
+                node.children.iter().filter(|&&k| mail.get(k).is_none_or(Vec::is_empty));
+            tops[1 - own] -= gone.map(|&child| nodes[child].below.pow(2)).sum::<usize>();
+            widest = widest.max(node.width);
+        }
+        for (stack, most) in self.stacks.iter_mut().zip(most) {
+            if stack.len() < most {
+                *stack = vec![0.0; most];
+            }
+        }
+        self.tops = [0, 0];
+        let scratch =
+            cholesky_in_place_scratch::<f64>(widest, Par::Seq, Default::default());
+        self.scratch = MemBuffer::new(scratch);
     }
 
     /// Numbers the rows of a front.
@@ -56,18 +100,17 @@ impl<'a> Work<'a> {
         }
     }
 
-    /// Eliminates a supernode; puts its packed columns on the shelf and mails its update.
-    pub(super) fn eliminate(
+    /// The columns of a front with its own entries, in a buffer that is used again.
+    pub(super) fn gather(
         &mut self,
         s: usize,
         entries: &dyn Entries,
-        (shelf, mail): (&mut Vec<f64>, &mut Mail),
-    ) -> Result<(), Singular> {
+        columns: &mut Vec<f64>,
+    ) {
         let symbolic = self.symbolic;
         let node = &symbolic.supernodes[s];
         let height = node.width + node.below;
         self.enter(node);
-        let mut columns = std::mem::take(&mut self.columns);
         columns.clear();
         columns.resize(node.width * height, 0.0);
         entries.entries(s, &mut |row, column, block| {
@@ -78,95 +121,147 @@ impl<'a> Work<'a> {
                 add(&mut columns[at..at + size], values);
             }
         });
-        let letters: Vec<(&Supernode, Vec<f64>)> = node
-            .children
-            .iter()
-            .map(|&child| (&symbolic.supernodes[child], mail.take(child)))
-            .collect();
-        for (child, letter) in &letters {
-            let side = Side { values: &mut columns, height, above: 0 };
-            self.take_in((child, letter), node.width, side);
+    }
+
+    /// Eliminates a supernode whose columns were gathered. Children whose letters are not
+    /// in the `mail` have theirs on top of the stack.
+    pub(super) fn eliminate(
+        &mut self,
+        s: usize,
+        columns: &mut [f64],
+        mail: &[Vec<f64>],
+    ) -> Result<(), Singular> {
+        let node = &self.symbolic.supernodes[s];
+        let (height, own) = (node.width + node.below, usize::from(node.odd));
+        self.enter(node);
+        let mut stacks = std::mem::take(&mut self.stacks);
+        let [even, odd] = &mut stacks;
+        let (theirs, ours) = if node.odd { (even, odd) } else { (odd, even) };
+        let (letters, left) = self.letters(node, &theirs[..self.tops[1 - own]], mail);
+        self.tops[1 - own] = left;
+        for &letter in &letters {
+            let side = Side { values: columns, height, above: 0 };
+            self.take_in(letter, node.width, side);
         }
-        let mut update = self.buffer(node.below * node.below);
-        self.reduce(node, &mut columns, &mut update[..node.below * node.below])?;
-        for (child, letter) in letters {
+        let from = self.tops[own];
+        self.tops[own] += node.below * node.below;
+        let update = &mut ours[from..self.tops[own]];
+        self.reduce(node, columns, update)?;
+        for &letter in &letters {
             let (height, above) = (node.below, node.width);
-            let side = Side { values: &mut update, height, above };
-            self.take_in((child, &letter), node.width, side);
-            self.spare.push(letter);
+            let side = Side { values: update, height, above };
+            self.take_in(letter, node.width, side);
         }
-        pack(&columns, node.width, shelf);
-        self.columns = columns;
-        mail.put(s, update);
+        self.stacks = stacks;
         Ok(())
     }
 
-    /// Room for so many numbers or more, whatever they are.
-    fn buffer(&mut self, count: usize) -> Vec<f64> {
-        let spare = self.spare.iter().enumerate().filter(|(_, room)| room.len() >= count);
-        match spare.min_by_key(|(_, room)| room.len()).map(|(k, _)| k) {
-            Some(k) => self.spare.swap_remove(k),
-            None => vec![0.0; count.next_power_of_two()],
+    /// The letters of the children, and how much of the stack is left without them.
+    fn letters<'b>(
+        &self,
+        node: &Supernode,
+        stack: &'b [f64],
+        mail: &'b [Vec<f64>],
+    ) -> (Vec<Letter<'b>>, usize)
+    where
+        'a: 'b,
+    {
+        let nodes = &self.symbolic.supernodes;
+        let mut left = stack.len();
+        let mut letters = Vec::with_capacity(node.children.len());
+        for &k in node.children.iter().rev() {
+            let child = &nodes[k];
+            let mailed = mail.get(k).filter(|letter| !letter.is_empty());
+            letters.push(match mailed {
+                Some(values) => Letter { child, values, packed: true },
+                None => {
+                    let from = left - child.below * child.below;
+                    let values = &stack[from..left];
+                    left = from;
+                    Letter { child, values, packed: false }
+                }
+            });
         }
+        letters.reverse();
+        (letters, left)
+    }
+
+    /// The update of the supernode that was eliminated last, packed.
+    pub(super) fn last_letter(&mut self, s: usize) -> Vec<f64> {
+        let node = &self.symbolic.supernodes[s];
+        let own = usize::from(node.odd);
+        let n = node.below;
+        let values = &self.stacks[own][self.tops[own] - n * n..self.tops[own]];
+        let mut packed = Vec::with_capacity(n * (n + 1) / 2);
+        for k in 0..n {
+            packed.extend_from_slice(&values[k * n + k..(k + 1) * n]);
+        }
+        packed
     }
 
     /// Turns the columns of a front into the factor's; `update` becomes what they take from
     /// the rest.
     fn reduce(
-        &self,
+        &mut self,
         node: &Supernode,
         columns: &mut [f64],
         update: &mut [f64],
     ) -> Result<(), Singular> {
         let (width, below) = (node.width, node.below);
         let height = width + below;
-        let front = MatMut::from_column_major_slice_mut(columns, height, width);
-        let (mut top, mut bottom) = front.split_at_row_mut(width);
-        let scratch =
-            cholesky_in_place_scratch::<f64>(width, Par::Seq, Default::default());
-        cholesky_in_place(
-            top.rb_mut(),
-            Default::default(),
-            Par::Seq,
-            MemStack::new(&mut MemBuffer::new(scratch)),
-            Default::default(),
-        )
-        .map_err(|_| Singular)?;
-        if below > 0 {
-            let update = MatMut::from_column_major_slice_mut(update, below, below);
-            if node.work() < LARGE {
-                solve_below(top.rb(), bottom.rb_mut());
-                less_square(update, bottom.rb());
-            } else {
-                self.eliminate_large(top.rb(), bottom.rb_mut(), update);
-            }
+        let mut front = MatMut::from_column_major_slice_mut(columns, height, width);
+        let large = node.work() > LARGE;
+        let threads = if large { self.threads } else { 1 };
+        let step = if large { TOGETHER } else { width };
+        for from in (0..width).step_by(step) {
+            let to = (from + step).min(width);
+            let (left, right) = front.rb_mut().split_at_col_mut(to);
+            let made = left.split_at_col_mut(from).1.split_at_row_mut(from).1;
+            let (mut top, mut bottom) = made.split_at_row_mut(to - from);
+            cholesky_in_place(
+                top.rb_mut(),
+                Default::default(),
+                Par::Seq,
+                MemStack::new(&mut self.scratch),
+                Default::default(),
+            )
+            .map_err(|_| Singular)?;
+            let half = if large { bottom.nrows() / 2 } else { 0 };
+            let (upper, lower) = bottom.rb_mut().split_at_row_mut(half);
+            let top = top.rb();
+            both(threads, || solve_below(top, lower), || solve_below(top, upper));
+            let rest = right.split_at_row_mut(to).1;
+            less_squares(threads, rest, bottom.rb(), Accum::Add);
         }
+        let update = MatMut::from_column_major_slice_mut(update, below, below);
+        less_squares(threads, update, front.rb().split_at_row(width).1, Accum::Replace);
         Ok(())
     }
 
-    /// Adds that part of a child's update, of which the lower triangle counts, which
-    /// belongs to one side of the present front of `width` own rows.
-    fn take_in(&self, (child, letter): (&Supernode, &[f64]), width: usize, side: Side) {
-        let runs = self.runs(child, width);
-        let mut column = 0;
+    /// Adds that part of a child's update which belongs to one side of the present front of
+    /// `width` own rows.
+    fn take_in(&self, letter: Letter, width: usize, side: Side) {
+        let runs = self.runs(letter.child, width);
+        let height = letter.child.below;
+        let (mut column, mut at) = (0, 0);
         for (index, &(local, size)) in runs.iter().enumerate() {
-            if (local < width) != (side.above == 0) {
-                column += size;
-                continue;
-            }
             for k in 0..size {
-                let source = &letter[column * child.below..(column + 1) * child.below];
-                let at = (local + k - side.above) * side.height;
-                let target = &mut side.values[at..at + side.height];
-                let (row, mut from) = (local + k - side.above, column);
-                add(&mut target[row..row + size - k], &source[from..from + size - k]);
-                from += size - k;
+                let source = &letter.values[at..at + height - column];
+                at += if letter.packed { height - column } else { height + 1 };
+                column += 1;
+                if (local < width) != (side.above == 0) {
+                    continue;
+                }
+                let row = local + k - side.above;
+                let from = row * side.height;
+                let target = &mut side.values[from..from + side.height];
+                let mut from = size - k;
+                add(&mut target[row..row + from], &source[..from]);
                 for &(row, size) in &runs[index + 1..] {
                     let row = row - side.above;
                     add(&mut target[row..row + size], &source[from..from + size]);
                     from += size;
                 }
-                column += 1;
             }
         }
     }
@@ -187,55 +282,17 @@ impl<'a> Work<'a> {
         }
         runs
     }
+}
 
-    /// The same in two halves, always cut in one place.
-    fn eliminate_large(
-        &self,
-        top: MatRef<'_, f64>,
-        bottom: MatMut<'_, f64>,
-        update: MatMut<'_, f64>,
-    ) {
-        let below = bottom.nrows();
-        let (mut upper, mut lower) = bottom.split_at_row_mut(below / 2);
-        self.both(
-            || solve_below(top, upper.rb_mut()),
-            || solve_below(top, lower.rb_mut()),
-        );
-        let (upper, lower) = (upper.rb(), lower.rb());
-        // Equal work: the first columns of a triangle are its longest.
-        let cut = (below * 3 / 10).min(upper.nrows());
-        let (left, right) = update.split_at_col_mut(cut);
-        let (mut corner, mut side) = left.split_at_row_mut(cut);
-        let mut rest = right.split_at_row_mut(cut).1;
-        let (first, second) = upper.split_at_row(cut);
-        let half = second.nrows();
-        self.both(
-            || {
-                less_square(corner.rb_mut(), first);
-                let (a, b) = side.rb_mut().split_at_row_mut(half);
-                less_product(a, second, first);
-                less_product(b, lower, first);
-            },
-            || {
-                let (left, right) = rest.rb_mut().split_at_col_mut(half);
-                let (a, b) = left.split_at_row_mut(half);
-                less_square(a, second);
-                less_product(b, lower, second);
-                less_square(right.split_at_row_mut(half).1, lower);
-            },
-        );
-    }
-
-    fn both(&self, first: impl FnOnce() + Send, second: impl FnOnce() + Send) {
-        if self.threads < 2 {
+fn both(threads: usize, first: impl FnOnce(), second: impl FnOnce() + Send) {
+    if threads < 2 {
+        first();
+        second();
+    } else {
+        std::thread::scope(|scope| {
+            scope.spawn(second);
             first();
-            second();
-        } else {
-            std::thread::scope(|scope| {
-                scope.spawn(second);
-                first();
-            });
-        }
+        });
     }
 }
 
@@ -245,25 +302,45 @@ fn add(into: &mut [f64], values: &[f64]) {
 
 /// `bottom` becomes `bottom · top⁻ᵀ`.
 fn solve_below(top: MatRef<'_, f64>, bottom: MatMut<'_, f64>) {
-    solve_lower_triangular_in_place(top, bottom.transpose_mut(), Par::Seq);
+    if bottom.nrows() > 0 {
+        solve_lower_triangular_in_place(top, bottom.transpose_mut(), Par::Seq);
+    }
 }
 
-/// The lower triangle of `into` becomes `-a · aᵀ`.
-fn less_square(into: MatMut<'_, f64>, a: MatRef<'_, f64>) {
+/// Takes `a · aᵀ`, as far as it stands on or below the diagonal, from `into`, or writes its
+/// opposite; in two parts if `threads` allow.
+fn less_squares(threads: usize, into: MatMut<'_, f64>, a: MatRef<'_, f64>, accum: Accum) {
+    // Equal work: the first columns of a triangle are its longest.
+    let cut = if threads < 2 { 0 } else { into.ncols() * 3 / 10 };
+    let (left, right) = into.split_at_col_mut(cut);
+    let right = right.split_at_row_mut(cut).1;
+    let low = a.split_at_row(cut).1;
+    both(
+        threads,
+        || less_trapezoid(right, low, accum),
+        || less_trapezoid(left, a, accum),
+    );
+}
+
+fn less_trapezoid(into: MatMut<'_, f64>, a: MatRef<'_, f64>, accum: Accum) {
+    let columns = into.ncols();
+    if columns == 0 {
+        return;
+    }
+    let (square, rest) = into.split_at_row_mut(columns);
+    let (upper, lower) = a.split_at_row(columns);
     triangular::matmul(
-        into,
+        square,
         BlockStructure::TriangularLower,
-        Accum::Replace,
-        a,
+        accum,
+        upper,
         BlockStructure::Rectangular,
-        a.transpose(),
+        upper.transpose(),
         BlockStructure::Rectangular,
         -1.0,
         Par::Seq,
     );
-}
-
-/// `into` becomes `-a · bᵀ`.
-fn less_product(into: MatMut<'_, f64>, a: MatRef<'_, f64>, b: MatRef<'_, f64>) {
-    matmul(into, Accum::Replace, a, b.transpose(), -1.0, Par::Seq);
+    if lower.nrows() > 0 {
+        matmul(rest, accum, lower, upper.transpose(), -1.0, Par::Seq);
+    }
 }

@@ -3,24 +3,36 @@
 //! Solving for several right-hand sides at once costs little more than for one, because
 //! the factor is read from memory once (Grimes, Lewis and Simon 1994).
 
-use crate::rigidity::block::{Block, clear, orthonormal};
+use crate::rigidity::basis::Basis;
+use crate::rigidity::block::Block;
 use crate::rigidity::factor::Halt;
 use crate::rigidity::panel::ABREAST;
 use crate::tolerance::MODE_RESIDUAL;
 use crate::watch::Watch;
-use faer::linalg::matmul::matmul;
-use faer::{Accum, Mat, Par, Side};
+use faer::{Mat, Side};
 
 /// A symmetric operator on blocks of vectors.
 pub(super) trait Operator {
     /// Length of the vectors.
     fn size(&self) -> usize;
 
-    /// Applies it to each column.
-    fn apply(&self, block: &mut Block);
+    /// Writes its product with each column of `block`.
+    fn apply(&self, block: &Block, into: &mut Block);
 
-    /// Takes from each column what the wanted vectors must not contain.
-    fn project(&self, block: &mut Block);
+    /// Orthonormal vectors that the wanted ones are orthogonal to.
+    fn barred(&self) -> &[Block] {
+        &[]
+    }
+
+    /// How many threads may work on it.
+    fn threads(&self) -> usize {
+        1
+    }
+
+    /// What to begin with.
+    fn start(&self) -> Block {
+        scattered(1, self.size(), ABREAST)
+    }
 }
 
 /// Steps before it is content with what it has.
@@ -51,44 +63,29 @@ pub(super) fn largest(
     watch: &dyn Watch,
 ) -> Result<Block, Halt> {
     let size = operator.size();
-    let mut next = scattered(1, size, ABREAST);
-    operator.project(&mut next);
-    operator.apply(&mut next);
-    operator.project(&mut next);
-    orthonormal(&mut next);
-    let mut basis: Vec<Block> = Vec::new();
+    let barred = operator.barred().to_vec();
+    let mut basis = Basis::new(barred, size, operator.threads());
+    let mut next = operator.start();
+    let mut cleared = basis.clear(&mut next);
     let mut projected: Mat<f64> = Mat::zeros(0, 0);
     let mut ends = None;
     for _ in 0..MOST_STEPS {
         Halt::if_stopped(watch)?;
-        // Short columns have lost digits: what they were cleared of may be back.
-        operator.project(&mut next);
-        clear(&basis, &mut next);
-        orthonormal(&mut next);
-        if next.columns == 0 {
+        basis.add(&mut next, cleared.inverse.as_ref());
+        let Some(last) = basis.blocks.last().filter(|last| last.columns > 0) else {
             break;
-        }
-        basis.push(next.clone());
-        operator.apply(&mut next);
-        operator.project(&mut next);
-        let shares = clear(&basis, &mut next);
-        projected = bordered(&projected, &shares);
-        let rest = orthonormal(&mut next);
+        };
+        operator.apply(last, &mut next);
+        cleared = basis.clear(&mut next);
+        projected = bordered(&projected, &cleared.shares);
         ends = ritz(&projected);
-        if ends.as_ref().is_some_and(|ends| ends.converged(&rest, wanted)) {
+        if ends.as_ref().is_some_and(|ends| ends.converged(&cleared.rest, wanted)) {
             break;
         }
     }
     let Some(ends) = ends else { return Ok(Block::zeros(size, 0)) };
     let count = wanted.min(ends.values.len());
-    let mut vectors = Block::zeros(size, count);
-    let mut from = 0;
-    for block in &basis {
-        let part = ends.vectors.submatrix(from, 0, block.columns, count);
-        matmul(vectors.as_mut(), Accum::Add, block.as_ref(), part, 1.0, Par::Seq);
-        from += block.columns;
-    }
-    Ok(vectors)
+    Ok(basis.combined(ends.vectors.subcols(0, count)))
 }
 
 /// Ritz values, the largest first, and their vectors in the basis.

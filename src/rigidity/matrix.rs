@@ -5,6 +5,7 @@ use crate::rigidity::block::Block;
 use crate::rigidity::factor::{Factor, Halt};
 use crate::rigidity::lanczos::{self, Operator};
 use crate::rigidity::model::Model;
+use crate::rigidity::motions::Twists;
 use crate::rigidity::paper::{Pairing, free_rank, velocity};
 use crate::rigidity::system::System;
 use crate::watch::Watch;
@@ -105,7 +106,8 @@ impl Matrix<'_> {
     ) -> Result<Solved, Halt> {
         let system = System::new(self.model, Some(0), threads);
         let factor = system.factor(None)?;
-        let inverse = PinInverse { system: &system, factor: &factor };
+        let twists = system.twists();
+        let inverse = PinInverse { system: &system, factor: &factor, twists };
         let vectors = lanczos::largest(&inverse, wanted, watch)?;
         let mut found: Vec<(f64, Vec<[f64; 6]>)> = (0..vectors.columns)
             .map(|k| {
@@ -132,17 +134,15 @@ impl Operator for Square<'_> {
         self.0.size()
     }
 
-    fn apply(&self, block: &mut Block) {
+    fn apply(&self, block: &Block, into: &mut Block) {
         let image = |k: usize| {
             let column = block.column(k);
             let twists = self.0.twists(|i| column[i]);
             self.0.transposed(&self.0.apply(&twists))
         };
         let images: Vec<Vec<f64>> = (0..block.columns).map(image).collect();
-        *block = Block::from_columns(block.rows, &images);
+        *into = Block::from_columns(block.rows, &images);
     }
-
-    fn project(&self, _block: &mut Block) {}
 }
 
 /// The inverse of `AᵀA` for the pairing `pin`: with `J X = Q z` and `X = T z` it is
@@ -150,13 +150,15 @@ impl Operator for Square<'_> {
 struct PinInverse<'a> {
     system: &'a System<'a>,
     factor: &'a Factor<'a>,
+    /// Of all bodies, `T`.
+    twists: Vec<Twists>,
 }
 
 impl PinInverse<'_> {
     /// `Tᵀ x` of one body.
     fn shares(&self, body: usize, x: impl Fn(usize) -> f64) -> [f64; 6] {
         let mut shares = [0.0; 6];
-        for (share, twist) in shares.iter_mut().zip(&self.system.motions[body].twists) {
+        for (share, twist) in shares.iter_mut().zip(&self.twists[body]) {
             *share = twist.iter().enumerate().map(|(k, t)| t * x(6 * body - 6 + k)).sum();
         }
         shares
@@ -168,7 +170,7 @@ impl Operator for PinInverse<'_> {
         6 * (self.system.motions.len() - 1)
     }
 
-    fn apply(&self, block: &mut Block) {
+    fn apply(&self, block: &Block, into: &mut Block) {
         let (system, count) = (self.system, block.columns);
         let bodies = 1..system.motions.len();
         let mut right = vec![0.0; system.unknowns() * count];
@@ -200,7 +202,7 @@ impl Operator for PinInverse<'_> {
                 system.gather(body, &y, &mut values);
                 let motions = &system.motions[body];
                 let back = motions.shares(&values);
-                for (j, twist) in motions.twists.iter().enumerate() {
+                for (j, twist) in self.twists[body].iter().enumerate() {
                     let z = shares[body][k][j] + back[j];
                     for (i, t) in twist.iter().enumerate() {
                         image.values[(6 * body - 6 + i) * count + k] += t * z;
@@ -208,8 +210,6 @@ impl Operator for PinInverse<'_> {
                 }
             }
         }
-        *block = image;
+        *into = image;
     }
-
-    fn project(&self, _block: &mut Block) {}
 }

@@ -78,7 +78,7 @@ fn null_space(
         let mut block = lanczos::scattered(seed, size, ABREAST);
         inverse.project(&mut block);
         for _ in 0..2 {
-            inverse.apply(&mut block);
+            inverse.multiply(&mut block);
             fresh(&mut block, &found);
         }
         for _ in 0..2 {
@@ -108,7 +108,7 @@ fn refine(inverse: &Inverse, block: &mut Block) {
     };
     let residuals: Vec<Vec<f64>> = (0..block.columns).map(residual).collect();
     let mut excess = Block::from_columns(block.rows, &residuals);
-    inverse.apply(&mut excess);
+    inverse.multiply(&mut excess);
     block.values.iter_mut().zip(&excess.values).for_each(|(x, e)| *x -= e);
 }
 

@@ -10,7 +10,9 @@
 //! in words. Sources: "Freeform Shading and Lighting Systems from Planar Quads", section
 //! Stability; `docs/rigidity.md`.
 
+mod abreast;
 mod amplify;
+mod basis;
 mod block;
 mod factor;
 mod finding;

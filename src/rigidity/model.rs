@@ -146,8 +146,13 @@ impl Model {
 
     /// The points of a body, in the order of its knots.
     pub fn points(&self, body: usize) -> Vec<Point3> {
+        self.points_of(body).collect()
+    }
+
+    /// The same, one by one.
+    pub(super) fn points_of(&self, body: usize) -> impl Iterator<Item = Point3> + '_ {
         let knots = self.touches[body].iter();
-        knots.flat_map(|&k| self.knots[k].points.iter().copied()).collect()
+        knots.flat_map(|&k| self.knots[k].points.iter().copied())
     }
 
     /// How many node axes there are.

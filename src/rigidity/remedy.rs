@@ -8,6 +8,7 @@ use crate::geometry::Vector3;
 use crate::rigidity::factor::Halt;
 use crate::rigidity::mobility::mobility;
 use crate::rigidity::model::{Body, Model};
+use crate::rigidity::motions::Twists;
 use crate::rigidity::spectrum::least;
 use crate::rigidity::sway::{self, Sway, node_velocity};
 use crate::rigidity::system::System;
@@ -147,11 +148,15 @@ fn effect(
 }
 
 /// How fast a body turns in a motion of the pins.
-fn turning(system: &System, body: usize, y: &[f64], values: &mut Vec<f64>) -> Vector3 {
+fn turning(
+    system: &System,
+    (body, twists): (usize, &Twists),
+    y: &[f64],
+    values: &mut Vec<f64>,
+) -> Vector3 {
     system.gather(body, y, values);
-    let motions = &system.motions[body];
-    let shares = motions.shares(values);
-    let turns = motions.twists.iter().zip(shares);
+    let shares = system.motions[body].shares(values);
+    let turns = twists.iter().zip(shares);
     turns.map(|(t, share)| Vector3::new(t[0], t[1], t[2]) * share).sum()
 }
 
@@ -161,11 +166,12 @@ fn weld(
     taken: &BTreeSet<Choice>,
 ) -> Option<(Choice, Model)> {
     let model = system.model;
+    let twists = system.twists();
     let mut values = Vec::new();
     let turns: Vec<Vec<Vector3>> = motions
         .iter()
         .map(|(_, y)| {
-            let bodies = 0..model.bodies.len();
+            let bodies = twists.iter().enumerate();
             bodies.map(|body| turning(system, body, y, &mut values)).collect()
         })
         .collect();

@@ -1,30 +1,28 @@
 //! Work on several threads whose results do not depend on how many there are.
 
 use std::ops::Range;
-use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::{Mutex, PoisonError};
 
-/// Runs `task` for 0 to `count` - 1, each thread with a state of its own; results in order.
-pub(super) fn side_by_side<S, T: Send>(
+/// Runs `task` on each item, each thread with a state of its own; results in order.
+pub(super) fn dealt<I: Send, S, T: Send>(
     threads: usize,
-    count: usize,
+    items: impl ExactSizeIterator<Item = I> + Send,
     state: impl Fn() -> S + Sync,
-    task: impl Fn(&mut S, usize) -> T + Sync,
+    task: impl Fn(&mut S, I) -> T + Sync,
 ) -> Vec<T> {
-    if threads < 2 || count < 2 {
+    if threads < 2 || items.len() < 2 {
         let mut state = state();
-        return (0..count).map(|k| task(&mut state, k)).collect();
+        return items.map(|item| task(&mut state, item)).collect();
     }
-    let next = AtomicUsize::new(0);
+    let items = Mutex::new(items.enumerate());
+    let next = || items.lock().unwrap_or_else(PoisonError::into_inner).next();
     let worker = || {
         let mut state = state();
         let mut mine = Vec::new();
-        loop {
-            let k = next.fetch_add(1, Ordering::Relaxed);
-            if k >= count {
-                return mine;
-            }
-            mine.push((k, task(&mut state, k)));
+        while let Some((k, item)) = next() {
+            mine.push((k, task(&mut state, item)));
         }
+        mine
     };
     let mut results: Vec<(usize, T)> = std::thread::scope(|scope| {
         let workers: Vec<_> = (1..threads).map(|_| scope.spawn(worker)).collect();
@@ -39,6 +37,16 @@ pub(super) fn side_by_side<S, T: Send>(
     });
     results.sort_by_key(|(k, _)| *k);
     results.into_iter().map(|(_, result)| result).collect()
+}
+
+/// The same for 0 to `count` - 1.
+pub(super) fn side_by_side<S, T: Send>(
+    threads: usize,
+    count: usize,
+    state: impl Fn() -> S + Sync,
+    task: impl Fn(&mut S, usize) -> T + Sync,
+) -> Vec<T> {
+    dealt(threads, 0..count, state, task)
 }
 
 /// `make` for ranges that cover `0..count`, side by side, put together in order.

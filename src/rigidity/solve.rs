@@ -1,11 +1,10 @@
 //! Solving with the factor: down its tree, and up again.
 
 use crate::rigidity::factor::Factor;
-use crate::rigidity::panel::{ABREAST, Row};
-use crate::rigidity::side::side_by_side;
+use crate::rigidity::panel::{ABREAST, HALF, Row};
+use crate::rigidity::side::dealt;
 use crate::rigidity::symbolic::{Supernode, Symbolic};
 use std::ops::Range;
-use std::sync::{Mutex, PoisonError};
 
 impl Factor<'_> {
     /// Solves for `count` right-hand sides, which lie row by row in `x`, `count` numbers per
@@ -41,17 +40,13 @@ impl Factor<'_> {
                 rows.iter_mut().zip(&mut beyond).for_each(|(x, v)| add(x, v));
             }
         }
-        let mut trunk = Part::new(self.symbolic);
-        trunk.own = x;
-        trunk.groups = 0..self.symbolic.place.len();
-        self.trunk.iter().for_each(|&s| self.forward(s, &mut trunk));
-        self.trunk.iter().rev().for_each(|&s| self.backward(s, &mut trunk));
+        self.solve_trunk(x);
         let roots = self.branches.iter().map(|&root| &self.symbolic.supernodes[root]);
         let beyond: Vec<Vec<Row>> = roots
             .map(|root| {
-                let mut rows = Vec::new();
-                trunk.gather(&root.rows, &mut rows);
-                rows
+                let rows = root.rows.iter();
+                let rows = rows.map(|&group| &x[self.symbolic.rows(group as usize)]);
+                rows.flatten().copied().collect()
             })
             .collect();
         self.each_branch(x, |part, k| {
@@ -62,12 +57,56 @@ impl Factor<'_> {
         });
     }
 
+    /// Forward and backward on the trunk. Its supernodes wait for each other, but the
+    /// right-hand sides do not: each thread takes half of them.
+    fn solve_trunk(&self, x: &mut [Row]) {
+        let nodes = || self.trunk.iter().map(|&s| &self.symbolic.supernodes[s]);
+        let at = |node: &Supernode| {
+            let from = self.symbolic.start[node.first];
+            from..from + node.width
+        };
+        let mut local = vec![0; self.symbolic.place.len()];
+        let mut count = 0;
+        for group in nodes().flat_map(|node| node.first..node.end) {
+            local[group] = count as u32;
+            count += self.symbolic.size(group);
+        }
+        let take = |from: usize| {
+            let rows = nodes().flat_map(|node| &x[at(node)]);
+            let mut part = Part::<HALF>::new(self.symbolic);
+            part.beyond.reserve_exact(count);
+            part.beyond.extend(
+                rows.map(|row| -> [f64; HALF] { std::array::from_fn(|k| row[from + k]) }),
+            );
+            part.local.clone_from(&local);
+            part
+        };
+        let mut halves = [0, HALF].map(take);
+        dealt(
+            self.threads,
+            halves.iter_mut(),
+            || (),
+            |(), part| {
+                self.trunk.iter().for_each(|&s| self.forward(s, part));
+                self.trunk.iter().rev().for_each(|&s| self.backward(s, part));
+            },
+        );
+        let [first, second] = &halves;
+        let mut solved = first.beyond.iter().zip(&second.beyond);
+        for node in nodes() {
+            for (row, (first, second)) in x[at(node)].iter_mut().zip(&mut solved) {
+                row[..HALF].copy_from_slice(first);
+                row[HALF..].copy_from_slice(second);
+            }
+        }
+    }
+
     /// Runs `task` on the part of `x` that belongs to each branch; returns what each leaves
     /// for the unknowns beyond it.
     fn each_branch(
         &self,
         x: &mut [Row],
-        task: impl Fn(&mut Part, usize) + Sync,
+        task: impl Fn(&mut Part<ABREAST>, usize) + Sync,
     ) -> Vec<Vec<Row>> {
         let (symbolic, nodes) = (self.symbolic, &self.symbolic.supernodes);
         let groups = |k: usize| {
@@ -87,20 +126,17 @@ impl Factor<'_> {
             owns[k] = &mut own[from - cut..];
             cut = to;
         }
-        let owns: Vec<_> = owns.into_iter().map(Mutex::new).collect();
-        side_by_side(
+        dealt(
             self.threads,
-            self.branches.len(),
+            owns.into_iter().enumerate(),
             || (vec![0; symbolic.place.len()], Vec::new()),
-            |(local, scratch), k| {
-                // Nobody else asks for this part.
-                let mut own = owns[k].lock().unwrap_or_else(PoisonError::into_inner);
+            |(local, scratch), (k, own)| {
                 let mut part = Part::new(symbolic);
                 (part.local, part.scratch) =
                     (std::mem::take(local), std::mem::take(scratch));
                 part.enter(&nodes[self.branches[k]]);
                 part.groups = groups(k);
-                part.own = &mut own;
+                part.own = own;
                 task(&mut part, k);
                 (*local, *scratch) = (part.local, part.scratch);
                 part.beyond
@@ -108,16 +144,15 @@ impl Factor<'_> {
         )
     }
 
-    fn forward(&self, s: usize, part: &mut Part) {
+    fn forward<const N: usize>(&self, s: usize, part: &mut Part<N>) {
         let node = &self.symbolic.supernodes[s];
-        let own = part.unknowns(node);
         let mut rows = std::mem::take(&mut part.scratch);
         rows.clear();
-        rows.extend_from_slice(&part.own[own.clone()]);
-        rows.resize(node.width + node.below, [0.0; ABREAST]);
+        rows.extend_from_slice(part.unknowns(node));
+        rows.resize(node.width + node.below, [0.0; N]);
         self.columns(s).forward(&mut rows);
         let (solved, mut rest) = rows.split_at(node.width);
-        part.own[own].copy_from_slice(solved);
+        part.unknowns(node).copy_from_slice(solved);
         for &group in &node.rows {
             let into = part.rows(group as usize);
             let values;
@@ -127,32 +162,33 @@ impl Factor<'_> {
         part.scratch = rows;
     }
 
-    fn backward(&self, s: usize, part: &mut Part) {
+    fn backward<const N: usize>(&self, s: usize, part: &mut Part<N>) {
         let node = &self.symbolic.supernodes[s];
-        let own = part.unknowns(node);
         let mut rows = std::mem::take(&mut part.scratch);
         rows.clear();
-        rows.extend_from_slice(&part.own[own.clone()]);
-        part.gather(&node.rows, &mut rows);
+        rows.extend_from_slice(part.unknowns(node));
+        for &group in &node.rows {
+            rows.extend_from_slice(part.rows(group as usize));
+        }
         self.columns(s).backward(&mut rows);
-        part.own[own].copy_from_slice(&rows[..node.width]);
+        part.unknowns(node).copy_from_slice(&rows[..node.width]);
         part.scratch = rows;
     }
 }
 
 /// Unknowns of some successive groups, and of those beyond that these touch.
-struct Part<'a> {
+struct Part<'a, const N: usize> {
     symbolic: &'a Symbolic,
     groups: Range<usize>,
-    own: &'a mut [Row],
-    beyond: Vec<Row>,
+    own: &'a mut [[f64; N]],
+    beyond: Vec<[f64; N]>,
     /// By group beyond, where its rows begin.
     local: Vec<u32>,
     /// The rows of one supernode.
-    scratch: Vec<Row>,
+    scratch: Vec<[f64; N]>,
 }
 
-impl<'a> Part<'a> {
+impl<'a, const N: usize> Part<'a, N> {
     fn new(symbolic: &'a Symbolic) -> Self {
         let (own, groups) = ([].as_mut(), 0..0);
         let (beyond, local, scratch) = (Vec::new(), Vec::new(), Vec::new());
@@ -166,35 +202,31 @@ impl<'a> Part<'a> {
             self.local[group as usize] = at as u32;
             at += self.symbolic.size(group as usize);
         }
-        self.beyond.resize(at, [0.0; ABREAST]);
+        self.beyond.resize(at, [0.0; N]);
     }
 
     /// The rows of a group.
-    fn rows(&mut self, group: usize) -> &mut [Row] {
-        let rows = self.symbolic.rows(group);
+    fn rows(&mut self, group: usize) -> &mut [[f64; N]] {
+        self.some(group, self.symbolic.size(group))
+    }
+
+    /// The rows that a supernode eliminates.
+    fn unknowns(&mut self, node: &Supernode) -> &mut [[f64; N]] {
+        self.some(node.first, node.width)
+    }
+
+    fn some(&mut self, group: usize, count: usize) -> &mut [[f64; N]] {
         if group < self.groups.end {
             let first = self.symbolic.start[self.groups.start];
-            &mut self.own[rows.start - first..rows.end - first]
+            let at = self.symbolic.start[group] - first;
+            &mut self.own[at..at + count]
         } else {
             let at = self.local[group] as usize;
-            &mut self.beyond[at..at + rows.len()]
-        }
-    }
-
-    /// Where the unknowns are that a supernode eliminates.
-    fn unknowns(&self, node: &Supernode) -> Range<usize> {
-        let at = self.symbolic.start[node.first] - self.symbolic.start[self.groups.start];
-        at..at + node.width
-    }
-
-    /// Adds the rows of some groups at the end of `into`.
-    fn gather(&mut self, groups: &[u32], into: &mut Vec<Row>) {
-        for &group in groups {
-            into.extend_from_slice(self.rows(group as usize));
+            &mut self.beyond[at..at + count]
         }
     }
 }
 
-fn add(into: &mut Row, values: &Row) {
+fn add<const N: usize>(into: &mut [f64; N], values: &[f64; N]) {
     into.iter_mut().zip(values).for_each(|(x, v)| *x += v);
 }

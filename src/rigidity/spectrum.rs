@@ -4,9 +4,12 @@
 //! rms motion of the pins, free of units and origin (notes §1.3, §3.2). All figures come
 //! from residuals `(I - QQᵀ) y`, never from `yᵀ K y`, which loses half the digits.
 
+use crate::geometry::Vector3;
 use crate::rigidity::block::{self, Block};
 use crate::rigidity::factor::{Factor, Halt};
 use crate::rigidity::lanczos::{self, Operator};
+use crate::rigidity::model::Knot;
+use crate::rigidity::panel::ABREAST;
 use crate::rigidity::side::side_by_side;
 use crate::rigidity::system::System;
 use crate::watch::Watch;
@@ -114,6 +117,26 @@ impl<'a> Inverse<'a> {
             row.iter_mut().for_each(|x| *x *= root);
         }
     }
+
+    /// Becomes the product with each column.
+    pub(super) fn multiply(&self, block: &mut Block) {
+        if block.columns > 0 {
+            self.scale(block);
+            self.factor.solve(&mut block.values, block.columns);
+            self.scale(block);
+        }
+    }
+
+    /// Takes from each column what the wanted motions must not contain.
+    pub(super) fn project(&self, block: &mut Block) {
+        // Unknowns that are a body's own are no part of the motion.
+        for (row, root) in block.rows_mut().zip(&self.roots) {
+            if *root <= 0.0 {
+                row.fill(0.0);
+            }
+        }
+        block::clear(&self.rigid, block);
+    }
 }
 
 /// Orthonormal `D^½ R`.
@@ -131,23 +154,61 @@ impl Operator for Inverse<'_> {
         self.system.unknowns()
     }
 
-    fn apply(&self, block: &mut Block) {
-        if block.columns > 0 {
-            self.scale(block);
-            self.factor.solve(&mut block.values, block.columns);
-            self.scale(block);
-        }
+    fn apply(&self, block: &Block, into: &mut Block) {
+        into.clone_from(block);
+        self.multiply(into);
     }
 
-    fn project(&self, block: &mut Block) {
-        // Unknowns that are a body's own are no part of the motion.
-        for (row, root) in block.rows_mut().zip(&self.roots) {
-            if *root <= 0.0 {
-                row.fill(0.0);
+    fn barred(&self) -> &[Block] {
+        &self.rigid
+    }
+
+    fn threads(&self) -> usize {
+        self.system.threads
+    }
+
+    fn start(&self) -> Block {
+        smooth(self.system, &self.roots)
+    }
+}
+
+/// How much of the first vectors is scattered, beside what is smooth.
+const SCATTERED: f64 = 0.1;
+
+/// Velocities to begin with: quadratic in the place, as the least resisted motions nearly
+/// are, and a scattered part so that none is missed.
+fn smooth(system: &System, roots: &[f64]) -> Block {
+    let model = system.model;
+    let count = model.knots.len().max(1) as f64;
+    let centre = model.knots.iter().map(|k| k.place().coords).sum::<Vector3>() / count;
+    let off = |knot: &Knot| (knot.place().coords - centre).norm_squared();
+    let radius = (model.knots.iter().map(off).sum::<f64>() / count).sqrt();
+    let scale = if radius > 0.0 { 1.0 / radius } else { 0.0 };
+    // Ten products of pairs of 1, x, y and z in three directions.
+    let shares = lanczos::scattered(2, 30, ABREAST).values;
+    let (shares, _) = shares.as_chunks::<ABREAST>();
+    let mut block = lanczos::scattered(1, system.unknowns(), ABREAST);
+    let (rows, _) = block.values.as_chunks_mut::<ABREAST>();
+    for (row, root) in rows.iter_mut().zip(roots) {
+        row.iter_mut().for_each(|x| *x *= SCATTERED * root);
+    }
+    for (knot, at) in model.knots.iter().zip(&system.knot_at) {
+        let Some(at) = *at else { continue };
+        let points = at..at + 3 * knot.points.len();
+        for (at, point) in points.step_by(3).zip(&knot.points) {
+            let q = (point.coords - centre) * scale;
+            let linear = [1.0, q.x, q.y, q.z];
+            let pairs = (0..4).flat_map(|i| (i..4).map(move |j| linear[i] * linear[j]));
+            let rows = &mut rows[at..at + 3];
+            for (product, shares) in pairs.zip(shares.chunks_exact(3)) {
+                let product = product * roots[at];
+                for (row, shares) in rows.iter_mut().zip(shares) {
+                    row.iter_mut().zip(shares).for_each(|(x, s)| *x += product * s);
+                }
             }
         }
-        block::clear(&self.rigid, block);
     }
+    block
 }
 
 /// All by a singular value decomposition of the compatibility matrix `(I - QQᵀ) D^-½`;

@@ -85,8 +85,14 @@ impl<'a> Stiffness<'a> {
             let motion = motions.column(k);
             let down = &motion[row.row..row.row + row.size];
             let across = &motion[column.row..column.row + column.size];
-            for (values, share) in block.chunks_exact_mut(row.size).zip(across) {
-                values.iter_mut().zip(down).for_each(|(x, m)| *x -= m * share);
+            // Loops of known length are quicker.
+            match (block.as_chunks_mut::<6>(), down.as_chunks::<6>()) {
+                ((columns, []), ([down], [])) => less_product(columns, down, across),
+                _ => {
+                    for (values, share) in block.chunks_exact_mut(row.size).zip(across) {
+                        values.iter_mut().zip(down).for_each(|(x, m)| *x -= m * share);
+                    }
+                }
             }
         }
         if row.row == column.row {
@@ -117,6 +123,15 @@ impl<'a> Stiffness<'a> {
             } else {
                 entry(at / motions.rank, at % motions.rank)
             };
+        }
+    }
+}
+
+/// Takes the product of `down` with each share of `across` from a column.
+fn less_product(columns: &mut [[f64; 6]], down: &[f64; 6], across: &[f64]) {
+    for (values, share) in columns.iter_mut().zip(across) {
+        for (x, m) in values.iter_mut().zip(down) {
+            *x -= m * share;
         }
     }
 }

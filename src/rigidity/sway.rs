@@ -7,6 +7,7 @@ use crate::rigidity::model::Model;
 use crate::rigidity::spectrum::Modes;
 use crate::rigidity::system::System;
 use crate::rigidity::verdict::SwayLimit;
+use crate::tolerance::SAME_SWAY;
 use crate::watch::Watch;
 use nalgebra::Matrix3;
 use std::collections::BTreeSet;
@@ -124,8 +125,16 @@ fn settled(direction: Vector3) -> Vector3 {
 
 /// The bracketing of largest upper bound over limit.
 fn highest(all: &[Bracketing], wall: &dyn Fn(usize) -> f64) -> usize {
-    let demand = |k: &usize| all[*k].bracket().upper / wall(all[*k].load.knot);
-    (0..all.len()).max_by(|a, b| demand(a).total_cmp(&demand(b))).unwrap_or(0)
+    let demands: Vec<f64> =
+        all.iter().map(|b| b.bracket().upper / wall(b.load.knot)).collect();
+    largest(&demands).unwrap_or(0)
+}
+
+/// Where the largest value stands; of those that differ by rounding only, the first.
+fn largest(values: &[f64]) -> Option<usize> {
+    let largest = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+    let least = largest - SAME_SWAY * largest.abs();
+    values.iter().position(|&x| x >= least || x >= largest)
 }
 
 /// Tightens until the verdict stands, or what decides it is narrow.
@@ -219,21 +228,22 @@ fn chosen(
     wall: &dyn Fn(usize) -> f64,
 ) -> BTreeSet<usize> {
     let most = |of: &dyn Fn(usize) -> f64| {
-        let knots = compliances.iter().map(|(knot, _)| *knot);
-        knots.max_by(|&a, &b| of(a).total_cmp(&of(b)))
+        let values: Vec<f64> = compliances.iter().map(|(knot, _)| of(*knot)).collect();
+        largest(&values).map(|k| compliances[k].0)
     };
     let mut chosen = BTreeSet::new();
     chosen.extend(most(wall));
     for y in &modes.motions {
         chosen.extend(most(&|k| node_velocity(system, k, y).norm() / wall(k)));
     }
-    let mut ranked: Vec<(f64, usize)> = compliances
+    let mut left: Vec<f64> = compliances
         .iter()
-        .map(|(knot, m)| {
-            (m.symmetric_eigenvalues().max().max(0.0).sqrt() / wall(*knot), *knot)
-        })
+        .map(|(knot, m)| m.symmetric_eigenvalues().max().max(0.0).sqrt() / wall(*knot))
         .collect();
-    ranked.sort_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));
-    chosen.extend(ranked.iter().take(TOP).map(|(_, knot)| *knot));
+    for _ in 0..TOP.min(left.len()) {
+        let Some(k) = largest(&left) else { break };
+        chosen.insert(compliances[k].0);
+        left[k] = f64::NEG_INFINITY;
+    }
     chosen
 }

@@ -27,6 +27,8 @@ pub(super) struct Supernode {
     pub(super) children: Vec<usize>,
     /// The first supernode of its subtree; a subtree is a range.
     pub(super) leaf: usize,
+    /// Whether its depth in the tree is odd.
+    pub(super) odd: bool,
 }
 
 impl Supernode {
@@ -58,7 +60,8 @@ impl Symbolic {
     /// Analyses groups of these sizes that touch each other as `neighbours` lists (both
     /// ways, without the group itself, each once).
     pub(super) fn new(sizes: &[usize], neighbours: &[Vec<u32>]) -> Self {
-        let order = postordered(minimum_degree(neighbours), neighbours);
+        let order = minimum_degree(neighbours);
+        let order = postordered(order, neighbours);
         let mut place = vec![0; order.len()];
         for (k, &group) in order.iter().enumerate() {
             place[group] = k;
@@ -81,6 +84,10 @@ impl Symbolic {
                 supernodes[parent].children.push(s);
                 supernodes[parent].leaf = supernodes[parent].leaf.min(leaf);
             }
+        }
+        for s in (0..supernodes.len()).rev() {
+            let above = supernodes[s].parent.map(|parent| supernodes[parent].odd);
+            supernodes[s].odd = above == Some(false);
         }
         Self { place, start, supernodes, owner }
     }
@@ -262,6 +269,7 @@ fn supernodes(
             parent,
             children,
             leaf: 0,
+            odd: false,
         };
         merged.push((node, 0));
     }

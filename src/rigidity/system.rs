@@ -9,10 +9,11 @@
 use crate::geometry::Point3;
 use crate::rigidity::factor::{Factor, Singular};
 use crate::rigidity::model::Model;
-use crate::rigidity::motions::Motions;
+use crate::rigidity::motions::{Motions, Twists};
 use crate::rigidity::side::in_parts;
 use crate::rigidity::stiffness::Stiffness;
 use crate::rigidity::symbolic::Symbolic;
+use std::ops::Range;
 
 /// Bodies with more rows than this keep their motion as unknowns.
 const MOST_ROWS: usize = 18;
@@ -160,6 +161,18 @@ impl<'a> System<'a> {
         counts
     }
 
+    /// The motions behind the bases of all bodies.
+    pub(super) fn twists(&self) -> Vec<Twists> {
+        let of = |body: usize| {
+            let points = self.model.points(body);
+            if self.fixed == Some(body) {
+                return [[0.0; 6]; 6];
+            }
+            Motions::twists(&points, &vec![1.0; points.len()])
+        };
+        (0..self.motions.len()).map(of).collect()
+    }
+
     /// Velocities at the points of a body.
     pub(super) fn gather(&self, body: usize, y: &[f64], into: &mut Vec<f64>) {
         into.clear();
@@ -291,15 +304,20 @@ impl<'a> System<'a> {
 }
 
 fn motions(model: &Model, fixed: Option<usize>, threads: usize) -> Vec<Motions> {
-    let of = |body: usize| {
-        let points = model.points(body);
-        if Some(body) == fixed {
-            Motions::none(3 * points.len())
-        } else {
-            Motions::new(&points, &vec![1.0; points.len()])
-        }
+    let make = |part: Range<usize>| {
+        let (mut points, mut roots) = (Vec::new(), Vec::new());
+        let of = |body: usize| {
+            points.clear();
+            points.extend(model.points_of(body));
+            if Some(body) == fixed {
+                return Motions::none(3 * points.len());
+            }
+            roots.resize(points.len(), 1.0);
+            Motions::new(&points, &roots)
+        };
+        part.map(of).collect()
     };
-    in_parts(model.bodies.len(), threads, |part| part.map(of).collect())
+    in_parts(model.bodies.len(), threads, make)
 }
 
 /// Which groups meet in a body.

@@ -1,8 +1,9 @@
 //! How long the least resisted motions take: `cargo bench --bench rigidity -- NODES`.
 //!
 //! A patch of a torus with its normals, NODES × NODES nodes, hinged fins, fin 0 held, the
-//! four least resisted motions; prints one JSON line. `tests/bench/rigidity.py` runs it
-//! beside scipy on the same matrix. By hand, never a test.
+//! four least resisted motions; prints one JSON line. With `-` it reads NODES from standard
+//! input, line after line. `tests/bench/rigidity.py` runs it beside scipy on the same
+//! matrix. By hand, never a test.
 
 use finwright::geometry::{Point3, Vector3, trig};
 use finwright::rigidity::{Body, Knot, Model, least_resisted};
@@ -39,14 +40,22 @@ fn torus(n: usize) -> Model {
     Model::new(bodies, knots.collect())
 }
 
-#[allow(clippy::print_stdout, reason = "a benchmark prints its line")]
-fn main() {
-    let wanted = |text: &String| text.parse::<usize>().ok();
-    let n = std::env::args().skip(1).find_map(|text| wanted(&text)).unwrap_or(71);
+#[allow(clippy::print_stdout, reason = "a benchmark prints its lines")]
+fn measure(n: usize) {
     let model = torus(n);
     let begun = Instant::now();
     let sigma = least_resisted(&model, Some(0), 4).unwrap_or_default();
     let seconds = begun.elapsed().as_secs_f64();
     let fins = model.bodies.len();
     println!(r#"{{"fins": {fins}, "seconds": {seconds:.4}, "sigma": {sigma:?}}}"#);
+}
+
+fn main() {
+    let number = |text: &str| text.trim().parse::<usize>().ok();
+    if std::env::args().any(|text| text == "-") {
+        let lines = std::io::stdin().lines().map_while(Result::ok);
+        lines.filter_map(|line| number(&line)).for_each(measure);
+    } else {
+        measure(std::env::args().skip(1).find_map(|text| number(&text)).unwrap_or(71));
+    }
 }
