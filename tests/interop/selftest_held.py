@@ -57,9 +57,9 @@ def setback_listed(place: int, by: float) -> Callable[[TinyJob], None]:
     return change
 
 
-def discs_first(job: TinyJob) -> None:
+def strips_first(job: TinyJob) -> None:
     steps = job.manifest["assembly"]
-    steps[:] = [{**entry, "step": k + 1} for k, entry in enumerate([steps[2], *steps[:2], steps[3]])]
+    steps[:] = [{**entry, "step": k + 1} for k, entry in enumerate([*steps[1:3], steps[0], steps[3]])]
 
 
 def connector_missing(job: TinyJob) -> None:
@@ -92,7 +92,7 @@ FAULTS: list[Fault] = [
     ("strips too near to the axis", lambda: tiny_hub(Shape(setback=0.5)), "fins: setback over the least"),
     ("strips reach into the middle", lambda: tiny_hub(Shape(setback=SETBACK - 3)), "assembly: fins clear of plates"),
     ("notch too shallow for the ring", lambda: tiny_hub(Shape(floors=SHALLOW)), "assembly: fins clear of plates"),
-    ("lower disc before the strips", changed(discs_first), "assembly: steps of fins and plates"),
+    ("lower disc after strips that nothing else holds", changed(strips_first), "assembly: steps of fins and plates"),
     ("held node without its discs", changed(connector_missing), "slits: strips that meet are held"),
     ("strip through its discs", changed(strip_goes_through), "slits: every strip ends at discs"),
     ("slit where discs stand", changed(slit_in_discs), "slits: every strip ends at discs"),

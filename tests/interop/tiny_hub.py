@@ -72,8 +72,9 @@ def tiny_hub(shape: Shape | None = None) -> TinyJob:
 
 
 def _assembly() -> list[dict]:
-    strips = [{"step": k + 1, "part": name, "from": "above"} for k, name in enumerate(STRIPS)]
-    return [*strips, {"step": 3, "part": NAME, "copies": [1, 1], "from": "below"}, {"step": 4, "part": NAME, "copies": [2, 2], "from": "above"}]
+    """Nothing but the discs holds these strips, so the lower one comes first."""
+    strips = [{"step": k + 2, "part": name, "from": "above"} for k, name in enumerate(STRIPS)]
+    return [{"step": 1, "part": NAME, "copies": [1, 1], "from": "below"}, *strips, {"step": 4, "part": NAME, "copies": [2, 2], "from": "above"}]
 
 
 def _strip(shape: Shape, name: str, contour: list[Corner]) -> dict:
