@@ -121,7 +121,7 @@ def _check_outline(strip: Strip, k: int, slit: dict, report: Report) -> None:
     aside = np.array([up[1], -up[0]])
     mouth, into = (top, -up) if slit["from"] == "top" else (bottom, up)
     ring = (np.asarray(strip.outline.exterior.coords)[:-1] - mouth) @ np.column_stack([into, aside])
-    found = next(filter(None, (_gap(ring, share * slit["depth"], slit["offset"]) for share in (0.5, 0.8, 0.95))), None)
+    found = next(filter(None, (_gap(ring, share * slit["depth"], slit["offset"]) for share in (0.95, 0.8, 0.5))), None)
     if found is None:
         report.at_most("slits: width in the outline", float("inf"), MEASURED, f"{where}: no gap")
         return
