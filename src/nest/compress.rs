@@ -1,7 +1,7 @@
 //! One room made narrower and narrower while everything still finds its place: strip
 //! packing, and the offcut of the last sheet.
 
-use crate::nest::crowd::{Crowd, Pose};
+use crate::nest::crowd::{Crowd, Member, Pose};
 use crate::nest::separate::Budget;
 use crate::nest::turned::Turned;
 
@@ -131,7 +131,7 @@ impl Crowd<'_> {
     ) -> bool {
         let mut improved = false;
         while !budget.over {
-            self.narrow(room, best, STEP);
+            self.narrow(room, best, STEP * self.rooms.len() as f64);
             if !self.settle(budget) || self.used(room) >= best.0 {
                 break;
             }
@@ -193,6 +193,14 @@ impl Crowd<'_> {
         });
         let pushed: Vec<Pose> = pushed.collect();
         self.restore(&pushed);
+        let right = self.rooms[room][2];
+        for part in 0..self.members.len() {
+            let Member { pose, turned, .. } = &self.members[part];
+            let is_there = !pose.is_nowhere() && self.room_at(pose.x) == room;
+            if is_there && pose.x + turned.bounds[2] > right {
+                self.drop_in(part);
+            }
+        }
     }
 
     /// Swaps two large parts of different shape.

@@ -2,22 +2,16 @@
 //! none at all.
 
 use crate::nest::Stock;
-use crate::nest::crowd::{Crowd, Member, Pose};
+use crate::nest::crowd::{Crowd, Pose};
 use crate::nest::search::Search;
 use crate::nest::separate::Budget;
 use std::collections::BTreeMap;
 
 /// Attempts at each choice of sheets.
 const ATTEMPTS: usize = 2;
-/// Share of the material beyond which parts are not tried to fit.
-const FULLEST: f64 = 0.9;
-
 /// Share of the material up to which any choice is as easy as another: what saves most goes
 /// first.
 const EASY: f64 = 0.6;
-
-/// Parts that cannot be moved before a sheet is left as it is.
-const FAILURES: usize = 3;
 
 /// Sheets given up, by kind, and those taken instead.
 struct Exchange {
@@ -30,29 +24,38 @@ struct Exchange {
 }
 
 impl Search<'_> {
-    /// Goes over to cheaper sheets, the least full ones first, until no exchange succeeds;
-    /// `true` if one did.
-    pub(super) fn exchange(&mut self, budget: &mut Budget) -> bool {
+    /// Goes over to cheaper sheets, the least full ones first, until no exchange up to that
+    /// share of the material succeeds; whether one did, and whether an attempt was cut
+    /// short by its units.
+    pub(super) fn exchange(
+        &mut self,
+        fullest: f64,
+        units: u64,
+        budget: &mut Budget,
+    ) -> (bool, bool) {
         let mut tried: BTreeMap<Vec<usize>, usize> = BTreeMap::new();
-        let mut succeeded = false;
+        let (mut succeeded, mut cut) = (false, false);
         'next: while !budget.over {
-            for exchange in self.exchanges() {
+            for exchange in self.exchanges(fullest) {
                 let after = exchange.after(&self.sheets);
                 let attempts = tried.entry(after).or_default();
                 if *attempts < ATTEMPTS {
                     *attempts += 1;
                     let rank = *attempts - 1;
-                    succeeded |= self.attempt(&exchange, rank, budget);
+                    let (done, was_cut) = budget
+                        .within(units, |budget| self.attempt(&exchange, rank, budget));
+                    succeeded |= done;
+                    cut |= was_cut;
                     continue 'next;
                 }
             }
             break;
         }
-        succeeded
+        (succeeded, cut)
     }
 
     /// All exchanges that save something and leave enough material.
-    fn exchanges(&self) -> Vec<Exchange> {
+    fn exchanges(&self, fullest: f64) -> Vec<Exchange> {
         let stock = self.yard.stock;
         let mut used = vec![0; stock.len()];
         self.sheets.iter().for_each(|&kind| used[kind] += 1);
@@ -61,6 +64,8 @@ impl Search<'_> {
         let sum = |kinds: &[usize], of: fn(&Stock) -> f64| -> f64 {
             kinds.iter().map(|&kind| of(&stock[kind])).sum()
         };
+        // A remnant that costs nothing is used rather than left.
+        let is_whole = |kinds: &[usize]| kinds.iter().all(|&kind| stock[kind].is_plain());
         let choices = choices(stock.len());
         let mut all = Vec::new();
         for given in choices.iter().filter(|given| !given.is_empty()) {
@@ -81,8 +86,9 @@ impl Search<'_> {
                 let saved = sum(given, |s| s.cost) - sum(taken, |s| s.cost);
                 let left = area - sum(given, Stock::area) + sum(taken, Stock::area);
                 let full = parts / left.max(f64::MIN_POSITIVE);
-                let better = saved > 0.0 || (saved >= 0.0 && taken.len() < given.len());
-                if better && full < FULLEST && taken.iter().all(|&kind| is_there(kind)) {
+                let fewer = taken.len() < given.len() && is_whole(given);
+                let better = saved > 0.0 || (saved >= 0.0 && fewer);
+                if better && full < fullest && taken.iter().all(|&kind| is_there(kind)) {
                     let (given, taken) = (given.clone(), taken.clone());
                     all.push(Exchange { given, taken, full, saved });
                 }
@@ -168,45 +174,12 @@ impl<'a> Search<'a> {
         (next, homeless)
     }
 
-    /// Moves parts of the emptiest plain sheet to the others, one after another, large ones
-    /// first; the sheet goes if it becomes empty. `true` if a part was moved.
-    pub(super) fn drain(&mut self, budget: &mut Budget) -> bool {
-        let Some(room) = self.emptiest().filter(|_| self.sheets.len() > 1) else {
-            return false;
-        };
+    /// Goes on without a room in which nothing lies.
+    pub(super) fn give_up(&mut self, room: usize) {
         let rooms: Vec<usize> = (0..self.sheets.len()).filter(|&k| k != room).collect();
         let sheets: Vec<usize> = rooms.iter().map(|&k| self.sheets[k]).collect();
-        let (mut next, mut left) = self.moved(&sheets, &rooms);
-        left.sort_by(|&a, &b| self.area(b).total_cmp(&self.area(a)).then(a.cmp(&b)));
-        let material: f64 = sheets.iter().map(|&k| self.yard.stock[k].area()).sum();
-        let mut filled: f64 = rooms.iter().map(|&k| self.filled(k)).sum();
-        let count = left.len();
-        let mut failed = 0;
-        left.retain(|&part| {
-            let full = filled + self.area(part) > FULLEST * material;
-            let over = full || budget.over || failed == FAILURES;
-            let stays = over || !next.squeeze_in(part, budget);
-            failed += usize::from(stays && !over);
-            filled += if stays { 0.0 } else { self.area(part) };
-            stays
-        });
-        (self.crowd.random, self.crowd.work) = (next.random.clone(), next.work);
-        if left.len() == count {
-            return false;
-        }
-        if left.is_empty() {
-            (self.crowd, self.sheets) = (next, sheets);
-            return true;
-        }
-        for part in (0..self.priorities.len()).filter(|part| !left.contains(part)) {
-            let Member { pose, fixed, .. } = next.members[part];
-            if !fixed && !pose.is_nowhere() {
-                let new = next.room_at(pose.x);
-                let by = self.crowd.rooms[rooms[new]][0] - next.rooms[new][0];
-                self.crowd.put(part, Pose { x: pose.x + by, ..pose });
-            }
-        }
-        true
+        (self.crowd, _) = self.moved(&sheets, &rooms);
+        self.sheets = sheets;
     }
 }
 

@@ -232,7 +232,7 @@ fn budget<'a>(effort: &Effort, watch: &'a mut dyn Watch) -> Budget<'a> {
         u32::MAX => u64::MAX,
         trials => u64::from(trials),
     };
-    Budget { units, done: 0, watch, over: false }
+    Budget::new(units, watch)
 }
 
 /// The units that lead here again: one more than were filled if the search ended by itself.

@@ -36,6 +36,15 @@ pub(super) fn denser(
     Some(yard.layout(&search.crowd, &search.sheets))
 }
 
+/// Units for each act of the first round.
+const FIRST: u64 = 50;
+/// Share of the material up to which other sheets are tried before the emptiest is pressed
+/// together, and beyond which they are not tried at all.
+const ROOMY: f64 = 0.62;
+const FULLEST: f64 = 0.9;
+/// Pressing gets so many times the units of an exchange.
+const PRESSED: u64 = 4;
+
 pub(super) struct Search<'a> {
     pub(super) yard: &'a Yard<'a>,
     pub(super) crowd: Crowd<'a>,
@@ -48,18 +57,28 @@ pub(super) struct Search<'a> {
 impl Search<'_> {
     fn run(&mut self, budget: &mut Budget) {
         self.take_in(budget);
-        let endless = budget.units == u64::MAX;
+        let mut units = FIRST;
         while !budget.over {
-            let work = self.crowd.work;
-            let exchanged = self.exchange(budget);
-            let mut pressed = self.press(budget);
-            let drained = self.drain(budget);
-            pressed |= drained && self.press(budget);
-            // Without an evaluation nothing can come of another round.
-            if self.crowd.work == work || !(exchanged || drained || pressed || endless) {
+            let (gained, cut) = self.improve(units, budget);
+            // Where nothing was cut short, more of the same would not help either.
+            if !(gained || cut || budget.is_endless()) {
                 break;
             }
+            units += if gained { 0 } else { units };
         }
+    }
+
+    /// Easy exchanges of sheets, then the emptiest sheet pressed together, and only when
+    /// that gains nothing hard exchanges; whether there was a gain, and whether something
+    /// was cut short.
+    fn improve(&mut self, units: u64, budget: &mut Budget) -> (bool, bool) {
+        let (exchanged, cut) = self.exchange(ROOMY, units, budget);
+        let (pressed, too) = budget.within(PRESSED * units, |budget| self.press(budget));
+        if exchanged || pressed {
+            return (true, cut || too);
+        }
+        let (exchanged, also) = self.exchange(FULLEST, units, budget);
+        (exchanged, cut || too || also)
     }
 
     /// The emptiest sheet that is a bare rectangle.
@@ -69,13 +88,17 @@ impl Search<'_> {
         plain.min_by(|a, b| a.0.total_cmp(&b.0).then(b.1.cmp(&a.1))).map(|(_, room)| room)
     }
 
-    /// Presses the emptiest plain sheet together; `true` if more of it is free now.
+    /// Presses the emptiest plain sheet together, into the others if need be, and gives it
+    /// up once it is empty; `true` if more of it is free now.
     fn press(&mut self, budget: &mut Budget) -> bool {
         let Some(room) = self.emptiest().filter(|_| !budget.over) else { return false };
         let (before, whole) = (self.crowd.used(room), self.crowd.rooms[room]);
         self.crowd.compress(room, false, budget);
         let after = self.crowd.used(room);
         self.crowd.rooms[room] = whole;
+        if self.filled(room) <= 0.0 {
+            self.give_up(room);
+        }
         after < before
     }
 
@@ -202,7 +225,7 @@ pub(super) fn strip(
         return None;
     }
     if crowd.total() <= 0.0 || crowd.separate(budget) {
-        crowd.compress(0, budget.units == u64::MAX, budget);
+        crowd.compress(0, budget.is_endless(), budget);
     }
     let layout = yard.layout(&crowd, &[0]);
     let placements = layout.sheets.into_iter().flat_map(|sheet| sheet.placements);
