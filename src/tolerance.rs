@@ -174,3 +174,6 @@ pub const NEST_SIMPLIFY: f64 = 2e-4;
 
 /// Share by which a loss is followed beyond its bound, for rounding.
 pub const NEST_BOUND: f64 = 1e-9;
+
+/// Share of its area that loops of a drawn line may make for it to be nested all the same.
+pub const NEST_LOOPS: f64 = 1e-3;

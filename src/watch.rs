@@ -14,6 +14,9 @@ pub trait Watch {
     fn enough(&self) -> bool {
         false
     }
+
+    /// Something better was found; what it is, the stage says.
+    fn better(&mut self, _found: &dyn std::any::Any) {}
 }
 
 /// Nobody listens, nobody stops.

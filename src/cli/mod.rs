@@ -10,6 +10,7 @@ mod joint;
 mod nest;
 mod nest_drawing;
 mod nest_input;
+mod nest_progress;
 mod picture;
 mod planarise;
 mod rigidity;

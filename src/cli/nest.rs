@@ -5,6 +5,7 @@ use crate::cli::input::{self, InputError};
 use crate::cli::jobdir::{self, JobFile};
 use crate::cli::nest_drawing;
 use crate::cli::nest_input::{self, Order, Task};
+use crate::cli::nest_progress::Progress;
 use crate::cli::run::{End, Failure};
 use crate::cli::show::{Terminal, Voice};
 use crate::diagnostic::{Finding, Located, Severity};
@@ -87,6 +88,10 @@ pub struct NestArgs {
           value_parser = super::args::seconds)]
     pub time_limit: Option<f64>,
 
+    /// Keep a picture (PNG) of the best layout so far here while searching
+    #[arg(long, value_name = "FILE")]
+    pub snapshot: Option<PathBuf>,
+
     /// Print layout.json on standard output
     #[arg(long)]
     pub json: bool,
@@ -108,30 +113,6 @@ fn size(text: &str) -> Result<[f64; 2], String> {
     }
 }
 
-/// The first Ctrl-C ends the search, which then gives the best so far; so does the last of
-/// the units that were asked for.
-struct UntilStopped {
-    terminal: Terminal,
-    units: Option<usize>,
-    done: usize,
-}
-
-impl Watch for UntilStopped {
-    fn progress(&mut self, stage: &'static str, done: usize, total: usize) {
-        self.done = done;
-        self.terminal.progress(stage, done, self.units.unwrap_or(total));
-    }
-
-    fn stopped(&self) -> bool {
-        false
-    }
-
-    fn enough(&self) -> bool {
-        let is_full = self.units.is_some_and(|units| self.done >= units);
-        is_full || self.terminal.enough() || self.terminal.stopped()
-    }
-}
-
 /// Runs the command.
 pub(super) fn run(args: &NestArgs, voice: Voice) -> Result<End, Failure> {
     let name = args.input.file_stem().unwrap_or_default().to_string_lossy().into_owned();
@@ -145,15 +126,21 @@ pub(super) fn run(args: &NestArgs, voice: Voice) -> Result<End, Failure> {
     set_up(&mut order, args)?;
     let terminal = Terminal::new(voice, args.time_limit);
     let units = args.work.map(|units| units as usize);
-    let mut watch = UntilStopped { terminal, units, done: 0 };
+    let failed = |error: NestError| Failure::Other(Box::new(error));
+    let refused = order.refuse().map_err(failed)?;
+    let mut watch = Progress::new(terminal, units, args.snapshot.as_deref(), &order);
     let nested = nested(&mut order, &effort(args), &mut watch);
     watch.terminal.finish();
-    let nested = nested.map_err(|error| Failure::Other(Box::new(error)))?;
+    let mut nested = nested.map_err(failed)?;
+    nested.unplaced.splice(0..0, refused);
     let dir = args.output.clone().unwrap_or_else(|| Path::new("out").join(&order.name));
     deliver(&order, &nested, args, &dir)?;
     voice.findings(
         &notes.into_iter().chain(left_over(&nested.unplaced)).collect::<Vec<_>>(),
     );
+    if let Some(failure) = watch.failure() {
+        voice.say(&format!("warning: no snapshot: {failure}"));
+    }
     voice.say(&summary(&nested, args, &dir, watch.terminal.stopped()));
     // What was found so far is written all the same.
     Ok(if watch.terminal.stopped() { End::Interrupted } else { End::Done })
@@ -228,7 +215,6 @@ fn nested(
     effort: &Effort,
     watch: &mut dyn Watch,
 ) -> Result<Nested, NestError> {
-    let refused = order.refuse()?;
     let closed: Vec<Shape>;
     let shapes = if order.holes_closed {
         let solid = |shape: &Shape| Shape { holes: Vec::new(), ..shape.clone() };
@@ -237,7 +223,7 @@ fn nested(
     } else {
         &order.shapes
     };
-    let mut nested = match order.task {
+    Ok(match order.task {
         Task::Sheets => {
             let Found { layout, unplaced, trials } =
                 nest::search(shapes, &order.stock, effort, watch)?;
@@ -250,9 +236,7 @@ fn nested(
             let length = Some(strip.length);
             Nested { layout, unplaced: Vec::new(), trials, length, seed: effort.seed }
         }
-    };
-    nested.unplaced.splice(0..0, refused);
-    Ok(nested)
+    })
 }
 
 fn deliver(

@@ -2,7 +2,8 @@
 
 use crate::cli::nest_input::{NestInputError, Order, Task};
 use crate::diagnostic::{Finding, Located, Place};
-use crate::nest::{Layout, Shape, Turns};
+use crate::geometry::{Contour, Point2};
+use crate::nest::{self, Layout, Shape, Turns};
 use crate::proof::Drawn;
 use crate::report::Lines;
 use crate::sheets::{Operation, Path};
@@ -66,10 +67,14 @@ pub(super) fn order(
     for (k, part) in drawn.parts.iter().enumerate() {
         let name = format!("P{}", k + 1);
         let holes = part.holes.iter();
+        // What stays tangled is refused by its name later on.
+        let plain =
+            |ring: Vec<Point2>, is_hole| nest::untangled(&ring, is_hole).unwrap_or(ring);
+        let hole = |hole: &Contour| plain(hole.flattened(ARC_SAGITTA_MM), true);
         shapes.push(Shape {
             name: name.clone(),
-            outline: part.outline.enclosing_polygon(ARC_SAGITTA_MM),
-            holes: holes.clone().map(|hole| hole.flattened(ARC_SAGITTA_MM)).collect(),
+            outline: plain(part.outline.enclosing_polygon(ARC_SAGITTA_MM), false),
+            holes: holes.clone().map(hole).collect(),
             turns: Turns::Free,
             priority: 0,
         });

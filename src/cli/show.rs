@@ -100,7 +100,8 @@ impl Terminal {
         // Without a handler Ctrl-C just ends the process, and nothing has been written then.
         let _ = ctrlc::set_handler(move || switch.store(true, Ordering::Relaxed));
         let bar = if voice.quiet { ProgressBar::hidden() } else { ProgressBar::new(1) };
-        if let Ok(style) = ProgressStyle::with_template("{msg:10} {wide_bar} {pos}/{len}")
+        if let Ok(style) =
+            ProgressStyle::with_template("{msg:10} {wide_bar} {pos}/{len} {prefix}")
         {
             bar.set_style(style);
         }
@@ -112,6 +113,11 @@ impl Terminal {
     pub(super) fn resume(&mut self, stage: &'static str) {
         self.bar.reset();
         self.progress(stage, 0, 1);
+    }
+
+    /// Says beside the bar what has been found.
+    pub(super) fn note(&self, text: &str) {
+        self.bar.set_prefix(text.to_owned());
     }
 
     /// Takes the bar off the screen.

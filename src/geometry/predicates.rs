@@ -93,6 +93,11 @@ fn folds_back(a: Point2, b: Point2, c: Point2) -> bool {
     side(a, b, c) == Side::On && (b - a).dot(&(c - b)) < 0.0
 }
 
+/// Whether `p` lies on the closed segment `a`–`b`, exactly.
+pub fn in_segment(a: Point2, b: Point2, p: Point2) -> bool {
+    side(a, b, p) == Side::On && in_box(a, b, p)
+}
+
 fn in_box(a: Point2, b: Point2, p: Point2) -> bool {
     a.x.min(b.x) <= p.x
         && p.x <= a.x.max(b.x)

@@ -106,20 +106,28 @@ impl Crowd<'_> {
 
     /// Narrows a room as far as the budget goes; ends with the narrowest layout found
     /// without overlap. The layout must have none to begin with.
-    /// It goes on for ever if told to, else until nothing is gained.
-    pub(super) fn compress(&mut self, room: usize, endless: bool, budget: &mut Budget) {
+    /// It goes on for ever if told to, else until nothing is gained; what each round has
+    /// found is shown.
+    pub(super) fn compress(
+        &mut self,
+        room: usize,
+        endless: bool,
+        budget: &mut Budget,
+        shown: &mut dyn FnMut(&Self, &mut Budget),
+    ) {
         let mut best = (self.used(room), self.poses());
         loop {
             let work = self.work;
             let explored = self.explore(room, &mut best, budget);
             let squeezed = self.squeeze(room, &mut best, budget);
+            self.rooms[room][2] = best.0;
+            self.restore(&best.1);
+            shown(self, budget);
             // Without an evaluation nothing can come of another round.
             if budget.over || self.work == work || !(explored || squeezed || endless) {
                 break;
             }
         }
-        self.rooms[room][2] = best.0;
-        self.restore(&best.1);
     }
 
     /// Shrinks in large steps.

@@ -24,21 +24,26 @@ pub(super) struct Mesh {
 impl Mesh {
     /// `None` if the rings cross each other or themselves.
     pub(super) fn new(rings: &[Vec<Point2>]) -> Option<Self> {
+        let links = rings.iter().flat_map(|ring| {
+            ring.iter().zip(ring.iter().cycle().skip(1)).map(|(&a, &b)| [a, b])
+        });
+        Self::linked(&links.collect::<Vec<_>>())
+    }
+
+    /// `None` if the links cross each other.
+    pub(super) fn linked(links: &[[Point2; 2]]) -> Option<Self> {
         let mut known: BTreeMap<[u64; 2], usize> = BTreeMap::new();
-        let (mut corners, mut links) = (Vec::new(), Vec::new());
-        for ring in rings {
-            let mut along: Vec<usize> = Vec::with_capacity(ring.len());
-            for p in ring {
-                let key = [p.x + 0.0, p.y + 0.0].map(f64::to_bits);
-                let index = *known.entry(key).or_insert(corners.len());
-                if index == corners.len() {
-                    corners.push(spade::Point2::new(p.x, p.y));
-                }
-                along.push(index);
+        let mut corners = Vec::new();
+        let mut index = |p: Point2| {
+            let key = [p.x + 0.0, p.y + 0.0].map(f64::to_bits);
+            let index = *known.entry(key).or_insert(corners.len());
+            if index == corners.len() {
+                corners.push(spade::Point2::new(p.x, p.y));
             }
-            let next = along.iter().cycle().skip(1);
-            links.extend(along.iter().zip(next).map(|(&a, &b)| [a, b]));
-        }
+            index
+        };
+        let mut links: Vec<[usize; 2]> =
+            links.iter().map(|link| link.map(&mut index)).collect();
         links.retain(|link| link[0] != link[1]);
         let mut crossed = false;
         let cdt = ConstrainedDelaunayTriangulation::<_>::try_bulk_load_cdt(

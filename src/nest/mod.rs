@@ -13,6 +13,7 @@ mod drop;
 mod error;
 mod exchange;
 mod free;
+mod groups;
 mod mesh;
 mod odd;
 mod pieces;
@@ -25,6 +26,7 @@ mod start;
 mod stock;
 mod turn;
 mod turned;
+mod untangle;
 mod yard;
 
 pub use check::{Fault, check};
@@ -33,6 +35,7 @@ pub use free::free;
 pub use refuse::refused;
 pub use stock::{Remnant, Stock, refused_stock};
 pub use turn::fits;
+pub use untangle::untangled;
 
 use crate::geometry::Point2;
 use crate::tolerance::{ROOM_MM, WRITTEN_MM};
@@ -167,8 +170,9 @@ pub fn search(
         return Ok(Found { layout: start, unplaced, trials: 1 });
     }
     let mut budget = budget(effort, watch);
+    budget.show(start.clone(), shapes, stock);
     let parts = (0..shapes.len()).filter(|&k| fits_any(&shapes[k], stock)).collect();
-    let denser = search::denser(&start, parts, (shapes, stock), effort.seed, &mut budget);
+    let denser = groups::denser(&start, parts, (shapes, stock), effort.seed, &mut budget);
     let trials = trials(&budget);
     let sound = |layout: &Layout| check(layout, shapes, stock).is_empty();
     let layout = denser.filter(sound).unwrap_or(start);

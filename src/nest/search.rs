@@ -4,12 +4,13 @@
 
 use crate::nest::crowd::{Crowd, Pose};
 use crate::nest::random::Random;
-use crate::nest::separate::Budget;
+use crate::nest::separate::{Budget, UNIT};
 use crate::nest::turned::Turned;
 use crate::nest::yard::Yard;
 use crate::nest::{Layout, Placement, Shape, Stock};
+use crate::tolerance::ROOM_MM;
 
-/// More parts than this are not searched at once: the crowd keeps a table of all pairs.
+/// More parts than this are searched in groups: the crowd keeps a table of all pairs.
 pub(super) const MOST_PARTS: usize = 1500;
 
 /// A better layout of the given parts (in rising order), or `None`. Not checked yet.
@@ -21,18 +22,19 @@ pub(super) fn denser(
     budget: &mut Budget,
 ) -> Option<Layout> {
     let sheets: Vec<usize> = layout.sheets.iter().map(|sheet| sheet.stock).collect();
-    if parts.len() > MOST_PARTS || sheets.is_empty() {
+    if sheets.is_empty() {
         return None;
     }
     let priorities = parts.iter().map(|&k| shapes[k].priority).collect();
     let yard = Yard::new(shapes, parts, stock)?;
     let mut crowd = yard.crowd(&sheets, Random::new(seed));
+    crowd.work = budget.done * UNIT;
     yard.put(&mut crowd, layout);
     if crowd.total() > 0.0 && !crowd.separate(budget) {
         return None;
     }
     let mut search = Search { yard: &yard, crowd, sheets, priorities };
-    search.run(budget);
+    search.run(shapes, budget);
     Some(yard.layout(&search.crowd, &search.sheets))
 }
 
@@ -55,11 +57,15 @@ pub(super) struct Search<'a> {
 }
 
 impl Search<'_> {
-    fn run(&mut self, budget: &mut Budget) {
+    fn run(&mut self, shapes: &[Shape], budget: &mut Budget) {
         self.take_in(budget);
         let mut units = FIRST;
         while !budget.over {
             let (gained, cut) = self.improve(units, budget);
+            if gained {
+                let layout = self.yard.layout(&self.crowd, &self.sheets);
+                budget.show(layout, shapes, self.yard.stock);
+            }
             // Where nothing was cut short, more of the same would not help either.
             if !(gained || cut || budget.is_endless()) {
                 break;
@@ -93,7 +99,7 @@ impl Search<'_> {
     fn press(&mut self, budget: &mut Budget) -> bool {
         let Some(room) = self.emptiest().filter(|_| !budget.over) else { return false };
         let (before, whole) = (self.crowd.used(room), self.crowd.rooms[room]);
-        self.crowd.compress(room, false, budget);
+        self.crowd.compress(room, false, budget, &mut |_, _| ());
         let after = self.crowd.used(room);
         self.crowd.rooms[room] = whole;
         if self.filled(room) <= 0.0 {
@@ -225,7 +231,12 @@ pub(super) fn strip(
         return None;
     }
     if crowd.total() <= 0.0 || crowd.separate(budget) {
-        crowd.compress(0, budget.is_endless(), budget);
+        let mut shown = |crowd: &Crowd, budget: &mut Budget| {
+            let stock =
+                Stock { width: crowd.used(0) + margin + ROOM_MM, ..stock[0].clone() };
+            budget.show(yard.layout(crowd, &[0]), shapes, &[stock]);
+        };
+        crowd.compress(0, budget.is_endless(), budget, &mut shown);
     }
     let layout = yard.layout(&crowd, &[0]);
     let placements = layout.sheets.into_iter().flat_map(|sheet| sheet.placements);

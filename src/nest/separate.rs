@@ -4,6 +4,7 @@
 
 use crate::nest::crowd::{Crowd, Pose};
 use crate::nest::turned::Turned;
+use crate::nest::{Layout, Shape, Stock, check, pieces};
 use crate::watch::Watch;
 use std::f64::consts::TAU;
 
@@ -20,24 +21,44 @@ pub(super) const UNIT: u64 = 20_000;
 /// How much work may be done. The watch is asked only when a unit is full, so a search
 /// that was cut short can be repeated by its units.
 pub(super) struct Budget<'a> {
-    units: u64,
+    pub(super) units: u64,
     pub(super) done: u64,
     /// No act may go on beyond this.
     cap: u64,
-    watch: &'a mut dyn Watch,
+    pub(super) watch: &'a mut dyn Watch,
     stopped: bool,
     pub(super) over: bool,
+    /// Whether the watch sees what is found.
+    pub(super) shows: bool,
 }
 
 impl<'a> Budget<'a> {
     /// As many units as given, `u64::MAX` until the watch has enough.
     pub(super) fn new(units: u64, watch: &'a mut dyn Watch) -> Self {
-        Self { units, done: 0, cap: units, watch, stopped: false, over: false }
+        Self {
+            units,
+            done: 0,
+            cap: units,
+            watch,
+            stopped: false,
+            over: false,
+            shows: true,
+        }
     }
 
     /// Whether the search goes on until the watch has enough.
     pub(super) const fn is_endless(&self) -> bool {
         self.units == u64::MAX
+    }
+
+    /// Shows the watch a layout and the share of the stock that parts cover, if it is sound.
+    pub(super) fn show(&mut self, layout: Layout, shapes: &[Shape], stock: &[Stock]) {
+        if self.shows && check(&layout, shapes, stock).is_empty() {
+            let area: f64 = layout.sheets.iter().map(|s| stock[s.stock].area()).sum();
+            let parts = layout.sheets.iter().flat_map(|sheet| &sheet.placements);
+            let filled: f64 = parts.map(|p| pieces::area(&shapes[p.shape].outline)).sum();
+            self.watch.better(&(layout, filled / area));
+        }
     }
 
     /// Acts with some of the units; and whether it was cut short by that.

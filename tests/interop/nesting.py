@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import math
+import re
 from pathlib import Path
 
 import ezdxf
@@ -67,6 +68,27 @@ def areas(dxf: Path) -> tuple[list[float], int, list[float]]:
     return sorted(closed), curved, opened
 
 
+def drawn_by_boxes(path: Path) -> list[float]:
+    """Areas of the paths of a boxes.py drawing in mm² (viewBox in mm): M, H, V, C and Z, all absolute; curves in 64 steps."""
+    found = []
+    for path_data in re.findall(r'<path d="([^"]+)"', path.read_text()):
+        points: list[complex] = []
+        for letter, numbers in re.findall(r"([MHVCZ])([^MHVCZ]*)", path_data):
+            values = [float(number) for number in numbers.split()]
+            if letter == "M":
+                points.append(complex(*values))
+            elif letter == "H":
+                points.append(complex(values[0], points[-1].imag))
+            elif letter == "V":
+                points.append(complex(points[-1].real, values[0]))
+            elif letter == "C":
+                a, (b, c, d) = points[-1], (complex(*values[k : k + 2]) for k in (0, 2, 4))
+                steps = [k / 64 for k in range(1, 65)]
+                points += [(1 - t) ** 3 * a + 3 * t * (1 - t) ** 2 * b + 3 * t * t * (1 - t) * c + t**3 * d for t in steps]
+        found.append(abs(sum((p.conjugate() * q).imag for p, q in zip(points, points[1:] + points[:1]))) / 2)
+    return sorted(found)
+
+
 def near(found: list[float], wanted: list[float], slack: float) -> bool:
     return len(found) == len(wanted) and all(math.isclose(a, b, rel_tol=slack) for a, b in zip(found, sorted(wanted)))
 
@@ -122,8 +144,23 @@ def reused(runner, layouts) -> None:
     runner.note("nest free space", not faults, "; ".join(faults[:3]))
 
 
+def box(runner, layouts) -> None:
+    """A box by boxes.py, whose lines loop at inner corners: all six sides are placed and cut as drawn."""
+    ran = runner.finwright("nest", str(FIXTURES / "closed_box.svg"), "--sheet", "200x120", "-o", "box", "-q")
+    if ran.returncode != 0:
+        runner.note("nest closed_box.svg", False, ran.stderr.strip()[-300:])
+        return
+    faults = list(layouts(json.loads((runner.scratch / "box" / "layout.json").read_text())))
+    closed = sorted(area for sheet in (runner.scratch / "box" / "sheets").glob("*.dxf") for area in areas(sheet)[0])
+    wanted = drawn_by_boxes(FIXTURES / "closed_box.svg")
+    if len(wanted) != 6 or not near([abs(a) for a in closed], wanted, 1e-5):
+        faults.append(f"drawn: {closed}; wanted {wanted}")
+    runner.note("nest closed_box.svg", not faults, "; ".join(faults[:3]))
+
+
 def checked(runner, layouts) -> None:
     """Runs the cases; `layouts` judges a layout.json by shapely."""
+    box(runner, layouts)
     reused(runner, layouts)
     dxf, drawn = runner.scratch / "parts.dxf", runner.scratch / "parts.svg"
     drawing(dxf)

@@ -364,3 +364,25 @@ fn an_interrupted_nest_writes_the_best_so_far() {
     assert_eq!(child.wait().expect("it ends").code(), Some(4));
     assert!(layout_json(place.path(), "a").contains("finwright-layout"));
 }
+
+/// A box by boxes.py, whose lines loop at inner corners: all sides are placed, and the
+/// picture asked for is there, with the sheet in it.
+#[test]
+fn a_drawing_with_loops_is_nested_and_a_snapshot_kept() {
+    let place = tempfile::tempdir().expect("there is room");
+    let words =
+        ["--sheet", "200x120", "--work", "4", "--snapshot", "best.png", "-o", "box"];
+    let ran = nested(place.path(), "closed_box.svg", &words).output().expect("it runs");
+    let said = String::from_utf8_lossy(&ran.stderr);
+    assert_eq!(ran.status.code(), Some(0), "{said}");
+    assert!(!said.contains("warning"), "{said}");
+    let layout: serde_json::Value =
+        serde_json::from_str(&layout_json(place.path(), "box")).expect("JSON");
+    let sheets = layout["sheets"].as_array().expect("a list");
+    let count =
+        |sheet: &serde_json::Value| sheet["placements"].as_array().map_or(0, Vec::len);
+    assert_eq!(sheets.iter().map(count).sum::<usize>(), 6);
+    let picture = std::fs::read(place.path().join("best.png")).expect("it was written");
+    let picture = tiny_skia::Pixmap::decode_png(&picture).expect("a picture");
+    assert!(picture.width() >= 200 && picture.height() >= 120, "{said}");
+}
