@@ -200,16 +200,16 @@ def main() -> int:
     with tempfile.TemporaryDirectory(prefix="finwright-interop-") as scratch:
         extra = ["--effort", options.effort] if options.effort else []
         runner = Runner(options.binary.resolve(), Path(scratch), extra)
-        if options.only in "coupon":
-            runner.coupon()
-        if options.only in "nest":
-            nesting.checked(runner, layout_faults)
         chosen = [case for case in cases(runner, options.meshes, options.connectors) if options.only in case.name]
         meshes = [name for name in PLANARISED if options.meshes and options.only in f"planarise {name}"]
-        # Each waits for programs of its own: as many at a time as there are cores.
+        # Each waits for programs of its own: as many at a time as there are cores; the long ones, which stand last, begin.
         with ThreadPoolExecutor(os.cpu_count()) as pool:
-            started = [pool.submit(runner.planarise, (options.meshes / name).resolve()) for name in meshes]
-            started += [pool.submit(runner.run, case, case.name == "default") for case in chosen]
+            started = [pool.submit(runner.run, case, case.name == "default") for case in reversed(chosen)]
+            started += [pool.submit(runner.planarise, (options.meshes / name).resolve()) for name in meshes]
+            if options.only in "nest":
+                started.append(pool.submit(nesting.checked, runner, layout_faults))
+            if options.only in "coupon":
+                started.append(pool.submit(runner.coupon))
             for task in started:
                 task.result()
     for name in runner.failed:
