@@ -61,16 +61,19 @@ impl Search<'_> {
         self.take_in(budget);
         let mut units = FIRST;
         while !budget.over {
+            let work = self.crowd.work;
             let (gained, cut) = self.improve(units, budget);
             if gained {
                 let layout = self.yard.layout(&self.crowd, &self.sheets);
                 budget.show(layout, shapes, self.yard.stock);
             }
-            // Where nothing was cut short, more of the same would not help either.
-            if !(gained || cut || budget.is_endless()) {
+            // Where nothing was cut short, more of the same would not help either; without an
+            // evaluation the clock is not looked at.
+            let idle = self.crowd.work == work;
+            if idle || !(gained || cut || budget.is_endless()) {
                 break;
             }
-            units += if gained { 0 } else { units };
+            units = if gained { units } else { units.saturating_mul(2) };
         }
     }
 
@@ -79,7 +82,8 @@ impl Search<'_> {
     /// was cut short.
     fn improve(&mut self, units: u64, budget: &mut Budget) -> (bool, bool) {
         let (exchanged, cut) = self.exchange(ROOMY, units, budget);
-        let (pressed, too) = budget.within(PRESSED * units, |budget| self.press(budget));
+        let (pressed, too) =
+            budget.within(PRESSED.saturating_mul(units), |budget| self.press(budget));
         if exchanged || pressed {
             return (true, cut || too);
         }

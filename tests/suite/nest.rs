@@ -349,6 +349,28 @@ fn the_printed_units_repeat_a_run_by_the_clock() {
     assert_eq!(check(&moved.to_string()), Some(3));
 }
 
+/// On a remnant there is nothing to press or to exchange: the search ends by itself, however
+/// long it may go on.
+#[test]
+fn a_search_with_nothing_to_try_ends() {
+    let place = tempfile::tempdir().expect("there is room");
+    let corners =
+        [(0.0, 0.0), (200.0, 0.0), (200.0, 100.0), (100.0, 200.0), (0.0, 200.0)];
+    let edge = corners.map(|(x, y)| [x, y]);
+    let parts = serde_json::json!({
+        "format": "finwright-parts", "version": 1, "name": "one", "spacing": 2,
+        "sheets": [{"outline": edge, "margin": 4, "count": 1, "cost": 0}],
+        "parts": [{"id": "bar", "quantity": 1, "outline": [[0, 0], [60, 0], [60, 20], [0, 20]]}],
+    });
+    let file = place.path().join("one.json");
+    std::fs::write(&file, parts.to_string()).expect("it can be written");
+    let file = file.to_str().expect("text");
+    let words = ["--time-limit", "1000000", "-o", "a"];
+    let ran = nested(place.path(), file, &words).output().expect("it runs");
+    assert_eq!(ran.status.code(), Some(0));
+    assert!(layout_json(place.path(), "a").contains("\"bar\""));
+}
+
 /// Ctrl-C: the best so far is written, and the exit code tells.
 #[cfg(unix)]
 #[test]
