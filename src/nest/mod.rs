@@ -22,6 +22,7 @@ mod random;
 mod refuse;
 mod search;
 mod separate;
+mod slender;
 mod start;
 mod stock;
 mod turn;

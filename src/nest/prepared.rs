@@ -4,6 +4,7 @@ use crate::geometry::{Point2, trig};
 use crate::nest::check::bounds;
 use crate::nest::crowd::Pose;
 use crate::nest::pieces::{area, pieces, width};
+use crate::nest::slender::Spine;
 use crate::nest::turned::Turned;
 use crate::nest::{Placement, Remnant, Shape, Turns, turn};
 
@@ -22,6 +23,8 @@ pub(super) struct Prepared {
     pub(super) area: f64,
     /// Share of this shape in a pair's loss: large parts count for more.
     pub(super) weight: f64,
+    /// If it is slender and turns freely.
+    pub(super) spine: Option<Spine>,
 }
 
 /// Shapes ready for the search, and which of them each shape is: neighbours that are
@@ -55,7 +58,9 @@ impl Prepared {
         let still = Turned::new(&pieces, middle);
         let size = (long * wide).max(f64::MIN_POSITIVE);
         let (area, weight) = (area(&shape.outline), size.sqrt().sqrt());
-        Some(Self { still, middle, angles, size, area, weight })
+        let is_free = shape.turns == Turns::Free;
+        let spine = Spine::of(&shape.outline, middle).filter(|_| is_free);
+        Some(Self { still, middle, angles, size, area, weight, spine })
     }
 
     /// All that a remnant lacks of the rectangle around it, and a frame.
@@ -70,7 +75,8 @@ impl Prepared {
         let size = (high.x - low.x) * (high.y - low.y);
         let (angles, middle) = (vec![0.0], Point2::origin());
         let still = Turned::new(&all, middle);
-        Some(Self { still, middle, angles, size, area: 0.0, weight: size.sqrt().sqrt() })
+        let (area, weight, spine) = (0.0, size.sqrt().sqrt(), None);
+        Some(Self { still, middle, angles, size, area, weight, spine })
     }
 
     /// The placement that a pose means, seen from `by` beside the pose's origin.
@@ -90,7 +96,8 @@ impl Prepared {
     }
 }
 
-fn turned(p: Point2, angle: f64) -> [f64; 2] {
+/// A point turned about the origin.
+pub(super) fn turned(p: Point2, angle: f64) -> [f64; 2] {
     let (sin, cos) = (trig::sin(angle), trig::cos(angle));
     [cos * p.x - sin * p.y, sin * p.x + cos * p.y]
 }

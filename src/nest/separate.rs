@@ -10,6 +10,9 @@ use std::f64::consts::TAU;
 
 const SAMPLES_ANYWHERE: usize = 50;
 const SAMPLES_NEAR: usize = 25;
+/// So many of the samples anywhere lie beside another part, where both are slender and
+/// there is one room.
+const SAMPLES_BESIDE: usize = 25;
 /// Best samples that are followed down.
 const FOLLOWED: usize = 3;
 /// Rounds without 2 % less loss before an attempt starts again from its best state.
@@ -159,11 +162,15 @@ impl Crowd<'_> {
         let mut scratch = self.members[part].turned.clone();
         let mut best = [(f64::INFINITY, here); FOLLOWED];
         best[0] = (now, here);
+        let is_slender = self.shapes[self.members[part].shape].spine.is_some();
+        let beside = if is_slender && self.rooms.len() == 1 { SAMPLES_BESIDE } else { 0 };
         for k in 0..SAMPLES_NEAR + SAMPLES_ANYWHERE {
             let sample = if k < SAMPLES_NEAR {
                 self.near(part, &mut scratch)
             } else {
-                self.anywhere(part, &mut scratch)
+                let is_beside = k < SAMPLES_NEAR + beside;
+                let pose = is_beside.then(|| self.beside(part, &mut scratch)).flatten();
+                pose.or_else(|| self.anywhere(part, &mut scratch))
             };
             let Some(pose) = sample else { continue };
             let cost = self.cost(part, &scratch, pose, best[FOLLOWED - 1].0);

@@ -21,7 +21,7 @@ pub(super) fn good(outline: &[Point2], turns: &Turns, stock: &Stock) -> Vec<f64>
     if let Turns::Only(angles) = turns {
         return angles.iter().copied().map(rounded).collect();
     }
-    let lying = lying(&hull(outline));
+    let lying = lying(outline);
     let mut turns = vec![lying, lying + PI, lying + FRAC_PI_2, lying - FRAC_PI_2];
     turns.extend(fits(outline, turns_free(), stock));
     turns.into_iter().map(rounded).collect()
@@ -42,7 +42,7 @@ fn candidates(hull: &[Point2], turns: &Turns) -> Vec<f64> {
     match turns {
         Turns::Only(angles) => angles.clone(),
         Turns::Free => {
-            let first = lying(hull);
+            let first = lying_of(hull);
             let edges = edge_turns(hull).flat_map(|angle| [angle, angle + FRAC_PI_2]);
             let steps = (0..180).map(|degree| f64::from(degree).to_radians());
             [first, first + FRAC_PI_2].into_iter().chain(edges).chain(steps).collect()
@@ -55,8 +55,12 @@ fn edge_turns(hull: &[Point2]) -> impl Iterator<Item = f64> + '_ {
     hull.iter().zip(next).map(|(a, b)| -trig::atan2(b.y - a.y, b.x - a.x))
 }
 
-/// The turn that lays the hull's smallest rectangle along x.
-fn lying(hull: &[Point2]) -> f64 {
+/// The turn that lays the smallest rectangle around an outline along x.
+pub(super) fn lying(outline: &[Point2]) -> f64 {
+    lying_of(&hull(outline))
+}
+
+fn lying_of(hull: &[Point2]) -> f64 {
     let area = |angle: f64| {
         let [w, h] = extent(hull, angle);
         w * h
@@ -70,7 +74,7 @@ fn lying(hull: &[Point2]) -> f64 {
 /// Length and height of the smallest rectangle around an outline.
 pub(super) fn least_rectangle(outline: &[Point2]) -> [f64; 2] {
     let hull = hull(outline);
-    extent(&hull, lying(&hull))
+    extent(&hull, lying_of(&hull))
 }
 
 /// Length of the smallest rectangle around an outline.
