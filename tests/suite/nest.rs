@@ -408,3 +408,24 @@ fn a_drawing_with_loops_is_nested_and_a_snapshot_kept() {
     let picture = tiny_skia::Pixmap::decode_png(&picture).expect("a picture");
     assert!(picture.width() >= 200 && picture.height() >= 120, "{said}");
 }
+
+/// A drawing by Inkscape 1.2 with round corners, a circle, an ellipse, cubics and an engraved
+/// line, and the DXF it makes of it (lines and splines): the same parts, by closed formulas.
+#[test]
+fn what_inkscape_draws_comes_in_whole() {
+    let place = tempfile::tempdir().expect("there is room");
+    for file in ["inkscape.svg", "inkscape.dxf"] {
+        let words = ["--sheet", "300x200", "--work", "1", "-o", file];
+        let ran = nested(place.path(), file, &words).output().expect("it runs");
+        let said = String::from_utf8_lossy(&ran.stderr);
+        assert_eq!(ran.status.code(), Some(0), "{said}");
+        assert!(!said.contains("warning") && said.contains("3 parts"), "{said}");
+        let layout: serde_json::Value =
+            serde_json::from_str(&layout_json(place.path(), file)).expect("JSON");
+        let pi = std::f64::consts::PI;
+        let plate = 60.0 * 40.0 - (4.0 - pi) * 36.0 - pi * 64.0;
+        let area = plate + pi * 450.0 + 70.0 * 25.0;
+        let filled = layout["utilisation"].as_f64().expect("a number") * 300.0 * 200.0;
+        assert!((filled / area - 1.0).abs() < 1e-3, "{file}: {filled}, {area}");
+    }
+}

@@ -5,7 +5,8 @@
 //! mirrors the entity in x).
 
 use crate::geometry::{Point2, Vertex, trig};
-use crate::proof::read::{Curve, Drawing, DrawingError, chain, is_cut, layer_named};
+use crate::proof::read::curves::{Ellipse, spline};
+use crate::proof::read::{Curve, Drawing, DrawingError, Pen, chain, is_cut, layer_named};
 use crate::units::Unit;
 
 /// Reads the lines of a DXF file, in millimetres.
@@ -102,6 +103,46 @@ impl Entity<'_> {
         number.filter(|number| number.is_finite()).unwrap_or(0.0)
     }
 
+    /// All values of a group code.
+    fn numbers(&self, code: i32) -> Vec<f64> {
+        let values = self.0.iter().filter(|tag| tag.0 == code);
+        values.filter_map(|tag| tag.1.parse().ok()).collect()
+    }
+
+    /// An ellipse or a spline without weights, in millimetres.
+    fn curved(&self, scale: f64) -> Option<(Vec<Vertex>, bool)> {
+        let mut pen = Pen::default();
+        match self.kind() {
+            "ELLIPSE" => {
+                let center = self.point(10, 20) * scale;
+                let major = self.point(11, 21).coords * scale;
+                let ratio =
+                    self.number(40) * if self.is_turned_over() { -1.0 } else { 1.0 };
+                let minor = crate::geometry::Vector2::new(-major.y, major.x) * ratio;
+                let ellipse = Ellipse { center, major, minor };
+                ellipse.draw(&mut pen, self.number(41), self.number(42));
+            }
+            "SPLINE" if self.is_unweighted() => {
+                let points = self.numbers(10).into_iter().zip(self.numbers(20));
+                let points = points.map(|(x, y)| Point2::new(x, y) * scale);
+                let (degree, points) =
+                    (self.number(71) as usize, points.collect::<Vec<_>>());
+                spline(&mut pen, degree, &self.numbers(40), &points);
+            }
+            _ => {}
+        }
+        pen.curves.pop()
+    }
+
+    /// Whether all control points of a spline count the same.
+    fn is_unweighted(&self) -> bool {
+        self.numbers(41).windows(2).all(|pair| pair[0].total_cmp(&pair[1]).is_eq())
+    }
+
+    fn is_turned_over(&self) -> bool {
+        self.number(230) < 0.0
+    }
+
     fn flags(&self) -> i32 {
         self.number(70) as i32
     }
@@ -147,6 +188,10 @@ impl Entity<'_> {
 impl Drawing {
     fn add(&mut self, entity: &Entity, vertices: &[Entity], scale: f64) {
         let layer = entity.layer();
+        if let Some((corners, closed)) = entity.curved(scale) {
+            self.curves.extend(plain(layer, corners, closed));
+            return;
+        }
         let (mut corners, closed) = match entity.kind() {
             "LINE" => {
                 let ends = [entity.point(10, 20), entity.point(11, 21)];
@@ -170,7 +215,7 @@ impl Drawing {
                 return;
             }
         };
-        let mirrored = if entity.number(230) < 0.0 { -1.0 } else { 1.0 };
+        let mirrored = if entity.is_turned_over() { -1.0 } else { 1.0 };
         for vertex in &mut corners {
             let p = vertex.point * scale;
             *vertex =
@@ -247,6 +292,19 @@ mod tests {
         assert!(
             (first.point.x + 25.4).abs() < 1e-12 && (first.bulge + 0.5).abs() < 1e-12
         );
+    }
+
+    #[test]
+    fn half_an_ellipse_and_a_spline_become_one_contour() {
+        // The spline is the straight line back, as a cubic.
+        let entities = "0 ELLIPSE 8 CUT_OUTER 10 5 20 0 11 3 21 0 40 0.5 41 0 42 3.141592653589793 \
+                        0 SPLINE 8 CUT_OUTER 70 8 71 3 40 0 40 0 40 0 40 0 40 1 40 1 40 1 40 1 \
+                        10 2 20 0 10 4 20 0 10 6 20 0 10 8 20 0";
+        let drawing = read_dxf(&file("9 $INSUNITS 70 1", entities)).unwrap();
+        let [curve] = drawing.curves.as_slice() else { panic!("{drawing:?}") };
+        assert!(curve.closed && drawing.unread.is_empty());
+        let area = std::f64::consts::PI * 3.0 * 1.5 / 2.0 * 25.4 * 25.4;
+        assert!((curve.contour().signed_area().abs() / area - 1.0).abs() < 1e-3);
     }
 
     #[test]

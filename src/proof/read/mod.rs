@@ -6,6 +6,7 @@
 
 mod bezier;
 mod chain;
+mod curves;
 mod dxf;
 mod pdf;
 mod svg;
@@ -142,6 +143,12 @@ impl Pen {
             self.curves.push((std::mem::take(&mut self.vertices), true));
             self.vertices.push(Vertex::line(start));
         }
+    }
+
+    /// Ends a line: closed if it has come back to its start.
+    fn end(&mut self) {
+        let back = (self.at() - self.start()).norm() < crate::tolerance::NO_LENGTH_MM;
+        if self.vertices.len() > 2 && back { self.close() } else { self.lift() }
     }
 
     /// Ends an open line; a single point is none.

@@ -3,7 +3,8 @@
 //! Lengths by SVG 1.1 §7: `width` and `height` carry the unit, `viewBox` says how many
 //! user units they are; without a unit a user unit is 1/96 inch.
 
-use crate::geometry::{Point2, Vertex};
+use crate::geometry::{Point2, Vector2, Vertex};
+use crate::proof::read::curves::{Ellipse, arc_to, raised};
 use crate::proof::read::{Curve, Drawing, DrawingError, Pen, chain, is_cut};
 use crate::proof::read::{layer_coloured, layer_named};
 use crate::tolerance::NO_LENGTH_MM;
@@ -87,8 +88,10 @@ impl Drawing {
                 }
             }
             "path" => exact = path(node.attribute("d").unwrap_or(""), &mut pen),
-            "line" | "polyline" | "polygon" | "rect" | "circle" => shape(node, &mut pen),
-            "ellipse" | "text" | "use" | "image" => exact = false,
+            "line" | "polyline" | "polygon" | "circle" => shape(node, &mut pen),
+            "rect" => rectangle(node, &mut pen),
+            "ellipse" => ellipse(node, &mut pen),
+            "text" | "use" | "image" => exact = false,
             _ => {}
         }
         pen.lift();
@@ -137,22 +140,58 @@ fn moved(vertices: &[Vertex], matrix: Matrix3<f64>) -> Option<Vec<Vertex>> {
     })
 }
 
+fn number(node: Node, name: &str) -> Option<f64> {
+    let length = node.attribute(name).and_then(|text| text.parse::<Length>().ok());
+    length.map(|length| length.number)
+}
+
+fn ellipse(node: Node, pen: &mut Pen) {
+    let number = |name| number(node, name).unwrap_or(0.0);
+    let (major, minor) =
+        (Vector2::new(number("rx"), 0.0), Vector2::new(0.0, number("ry")));
+    Ellipse { center: Point2::new(number("cx"), number("cy")), major, minor }
+        .draw(pen, 0.0, 0.0);
+}
+
+/// A rectangle, its corners round or not (SVG 1.1 §9.2).
+fn rectangle(node: Node, pen: &mut Pen) {
+    let number = |name| number(node, name);
+    let [x, y, w, h] = ["x", "y", "width", "height"].map(|n| number(n).unwrap_or(0.0));
+    let (rx, ry) = (number("rx").or(number("ry")), number("ry").or(number("rx")));
+    let (rx, ry) = (rx.unwrap_or(0.0).min(w / 2.0), ry.unwrap_or(0.0).min(h / 2.0));
+    if rx <= 0.0 || ry <= 0.0 {
+        let corners = [(0.0, 0.0), (w, 0.0), (w, h), (0.0, h)];
+        let corner = |(u, v)| Vertex::line(Point2::new(x + u, y + v));
+        return pen.curves.push((corners.map(corner).to_vec(), true));
+    }
+    let (right, low) = (x + w, y + h);
+    let sides = [
+        [(x + rx, y), (right - rx, y)],
+        [(right, y + ry), (right, low - ry)],
+        [(right - rx, low), (x + rx, low)],
+        [(x, low - ry), (x, y + ry)],
+    ];
+    let turn = |pen: &mut Pen, to| arc_to(pen, ([rx, ry], 0.0), (false, true), to);
+    let sides = sides.map(|side| side.map(|(x, y)| Point2::new(x, y)));
+    pen.move_to(sides[0][0]);
+    for (k, [from, to]) in sides.into_iter().enumerate() {
+        if k > 0 {
+            turn(pen, from);
+        }
+        if (to - pen.at()).norm() > NO_LENGTH_MM {
+            pen.line_to(to, 0.0);
+        }
+    }
+    turn(pen, sides[0][0]);
+    pen.close();
+}
+
 fn shape(node: Node, pen: &mut Pen) {
-    let number = |name: &str| {
-        let length = node.attribute(name).and_then(|text| text.parse::<Length>().ok());
-        length.map_or(0.0, |length| length.number)
-    };
-    let (x, y) = (number("x"), number("y"));
+    let number = |name: &str| number(node, name).unwrap_or(0.0);
     let mut corners: Vec<Vertex> = match node.tag_name().name() {
         "line" => [("x1", "y1"), ("x2", "y2")]
             .map(|(x, y)| Vertex::line(Point2::new(number(x), number(y))))
             .to_vec(),
-        "rect" => {
-            let (w, h) = (number("width"), number("height"));
-            [(0.0, 0.0), (w, 0.0), (w, h), (0.0, h)]
-                .map(|(u, v)| Vertex::line(Point2::new(x + u, y + v)))
-                .to_vec()
-        }
         "circle" => [number("r"), -number("r")]
             .map(|r| Vertex::arc(Point2::new(number("cx") + r, number("cy")), 1.0))
             .to_vec(),
@@ -168,17 +207,25 @@ fn shape(node: Node, pen: &mut Pen) {
     }
 }
 
-/// Draws path data; false if there is something in it that is no line, arc or cubic.
+fn arc_of(segment: PathSegment, pen: &mut Pen, to: Point2) {
+    if let PathSegment::EllipticalArc {
+        rx, ry, x_axis_rotation, large_arc, sweep, ..
+    } = segment
+    {
+        arc_to(pen, ([rx, ry], x_axis_rotation), (large_arc, sweep), to);
+    }
+}
+
+/// Draws path data; false if there is something in it that cannot be read.
 fn path(data: &str, pen: &mut Pen) -> bool {
-    let mut exact = true;
-    let mut handle: Option<Point2> = None;
+    let (mut handle, mut quadratic): (Option<Point2>, Option<Point2>) = (None, None);
     for segment in PathParser::from(data) {
         let Ok(segment) = segment else { return false };
         let at = pen.at();
         let to = |abs: bool, x: f64, y: f64| {
             if abs { Point2::new(x, y) } else { Point2::new(at.x + x, at.y + y) }
         };
-        let last_handle = handle.take();
+        let (last_handle, last_quadratic) = (handle.take(), quadratic.take());
         match segment {
             PathSegment::MoveTo { abs, x, y } => pen.move_to(to(abs, x, y)),
             PathSegment::LineTo { abs, x, y } => pen.line_to(to(abs, x, y), 0.0),
@@ -197,35 +244,21 @@ fn path(data: &str, pen: &mut Pen) -> bool {
                 handle = Some(to(abs, x2, y2));
                 pen.curve_to([first, to(abs, x2, y2), to(abs, x, y)]);
             }
-            PathSegment::EllipticalArc {
-                abs, rx, ry, large_arc, sweep, x, y, ..
-            } if (rx - ry).abs() < NO_LENGTH_MM => {
-                arc(pen, rx, (large_arc, sweep), to(abs, x, y));
+            PathSegment::EllipticalArc { abs, x, y, .. } => {
+                arc_of(segment, pen, to(abs, x, y));
             }
             PathSegment::ClosePath { .. } => pen.close(),
-            PathSegment::EllipticalArc { abs, x, y, .. }
-            | PathSegment::Quadratic { abs, x, y, .. }
-            | PathSegment::SmoothQuadratic { abs, x, y } => {
-                pen.line_to(to(abs, x, y), 0.0);
-                exact = false;
+            PathSegment::Quadratic { abs, x1, y1, x, y } => {
+                let handle = quadratic.insert(to(abs, x1, y1));
+                pen.curve_to(raised(at, *handle, to(abs, x, y)));
+            }
+            PathSegment::SmoothQuadratic { abs, x, y } => {
+                let handle = last_quadratic.map_or(at, |handle| at + (at - handle));
+                pen.curve_to(raised(at, *quadratic.insert(handle), to(abs, x, y)));
             }
         }
     }
-    exact
-}
-
-/// An arc by radius and flags (SVG 1.1, F.6.5) as a bulge: with half the chord h and the
-/// radius r, the tangent of a quarter of the angle is h / (r ± sqrt(r² - h²)).
-fn arc(pen: &mut Pen, radius: f64, (large, sweep): (bool, bool), to: Point2) {
-    let half = (to - pen.at()).norm() / 2.0;
-    if half == 0.0 || radius == 0.0 {
-        return pen.line_to(to, 0.0);
-    }
-    let radius = radius.abs().max(half);
-    let rise = (radius * radius - half * half).max(0.0).sqrt();
-    let bulge = half / (radius + if large { -rise } else { rise });
-    // In the file y runs downward: there a positive sweep is a positive bulge.
-    pen.line_to(to, if sweep { bulge } else { -bulge });
+    true
 }
 
 #[cfg(test)]
@@ -245,6 +278,35 @@ mod tests {
         assert!((curve.contour().signed_area().abs() - area).abs() < 1e-9);
         assert!((curve.vertices[0].point - Point2::new(15.24, 12.7)).norm() < 1e-9);
         assert_eq!(drawing.unread.len(), 1);
+    }
+
+    #[test]
+    fn round_corners_ellipses_and_quadratics_keep_their_area() {
+        let read = |shape: &str| {
+            let text = format!(
+                r#"<svg xmlns="http://www.w3.org/2000/svg" width="200mm" height="200mm"
+                viewBox="0 0 200 200"><g transform="rotate(10)">{shape}</g></svg>"#
+            );
+            let drawing = read_svg(text.as_bytes()).unwrap();
+            let [curve] = drawing.curves.as_slice() else { panic!("{drawing:?}") };
+            assert!(curve.closed && drawing.unread.is_empty(), "{drawing:?}");
+            curve.contour().signed_area().abs()
+        };
+        let pi = std::f64::consts::PI;
+        let rounded = 60.0 * 40.0 - (4.0 - pi) * 36.0;
+        let uneven = 60.0 * 40.0 - (4.0 - pi) * 18.0;
+        let ellipse = pi * 450.0;
+        for (shape, wanted) in [
+            (r#"<rect x="9" y="9" width="60" height="40" rx="6"/>"#, rounded),
+            (r#"<rect x="9" y="9" width="60" height="40" rx="6" ry="3"/>"#, uneven),
+            (r#"<rect width="60" height="12" ry="99"/>"#, pi * 180.0),
+            (r#"<ellipse cx="90" cy="50" rx="30" ry="15"/>"#, ellipse),
+            (r#"<path d="M60 50 a30 15 0 0 1 60 0 30 15 0 0 1 -60 0z"/>"#, ellipse),
+            (r#"<path d="M0 0 q 30 30 60 0 t 60 0 V 60 H 0 z"/>"#, 7200.0),
+        ] {
+            let area = read(shape);
+            assert!((area / wanted - 1.0).abs() < 1e-3, "{shape}: {area}, {wanted}");
+        }
     }
 
     #[test]
