@@ -103,7 +103,7 @@ pub(super) fn spline(
     points: &[Point2],
 ) -> bool {
     let fits = knots.len() == points.len() + degree + 1 && points.len() > degree;
-    if !(1..=3).contains(&degree) || !fits {
+    if !(1..=3).contains(&degree) || !fits || !knots.is_sorted() {
         return false;
     }
     let mut begun = false;
@@ -188,6 +188,7 @@ mod tests {
             assert!((area - wanted).abs() < 0.02, "degree {degree}: {area}");
         }
         assert!(!spline(&mut Pen::default(), 3, &[0.0, 1.0], &points));
+        assert!(!spline(&mut Pen::default(), 1, &[0.0, 2.0, 1.0, 3.0], &points[..2]));
     }
 
     #[test]

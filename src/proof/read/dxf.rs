@@ -103,10 +103,11 @@ impl Entity<'_> {
         number.filter(|number| number.is_finite()).unwrap_or(0.0)
     }
 
-    /// All values of a group code.
+    /// All values of a group code that are numbers.
     fn numbers(&self, code: i32) -> Vec<f64> {
         let values = self.0.iter().filter(|tag| tag.0 == code);
-        values.filter_map(|tag| tag.1.parse().ok()).collect()
+        let numbers = values.filter_map(|tag| tag.1.parse::<f64>().ok());
+        numbers.filter(|number| number.is_finite()).collect()
     }
 
     /// An ellipse or a spline without weights, in millimetres.
