@@ -96,7 +96,12 @@ impl Basis {
         let rows = parts.first().map_or(0, |block| block.rows);
         let mut made = Block::zeros(rows, of.ncols());
         let coefficients = -of;
-        self.each_piece(&mut made, |mut piece| piece.take(parts, coefficients.as_ref()));
+        self.each_piece(&mut made, |mut piece| {
+            // A page that is read before it is written is touched twice, and the second time
+            // stops the other thread.
+            piece.values.fill(0.0);
+            piece.take(parts, coefficients.as_ref());
+        });
         made
     }
 

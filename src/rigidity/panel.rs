@@ -9,9 +9,6 @@ use pulp::{Arch, Simd, WithSimd};
 /// Right-hand sides that are solved for together.
 pub(super) const ABREAST: usize = 8;
 
-/// Half of them: as many as may be solved for apart, a whole number of wide vectors.
-pub(super) const HALF: usize = ABREAST / 2;
-
 /// One row of all right-hand sides.
 pub(super) type Row = [f64; ABREAST];
 
@@ -49,15 +46,14 @@ pub(super) fn pack(columns: &[f64], width: usize, into: &mut Vec<f64>) {
 }
 
 impl<'a> Columns<'a> {
-    /// Solves for the first `width` rows, `N` right-hand sides abreast, and takes what they
-    /// cause from the rest.
-    pub(super) fn forward<const N: usize>(self, rows: &mut [[f64; N]]) {
+    /// Solves for the first `width` rows, and takes what they cause from the rest.
+    pub(super) fn forward(self, rows: &mut [Row]) {
         Arch::new().dispatch(Sweep { columns: self, rows, down: true });
     }
 
     /// Takes what the rows after the first `width` cause from those, and solves for them
     /// with the transpose.
-    pub(super) fn backward<const N: usize>(self, rows: &mut [[f64; N]]) {
+    pub(super) fn backward(self, rows: &mut [Row]) {
         Arch::new().dispatch(Sweep { columns: self, rows, down: false });
     }
 
@@ -69,39 +65,39 @@ impl<'a> Columns<'a> {
     }
 }
 
-struct Sweep<'a, const N: usize> {
+struct Sweep<'a> {
     columns: Columns<'a>,
-    rows: &'a mut [[f64; N]],
+    rows: &'a mut [Row],
     down: bool,
 }
 
-impl<const N: usize> WithSimd for Sweep<'_, N> {
+impl WithSimd for Sweep<'_> {
     type Output = ();
 
     // Plain loops: what stands in a closure is compiled without wide vectors.
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) {
         let columns = self.columns;
-        let (height, per_row) = (self.rows.len(), N / S::F64_LANES);
+        let (height, per_row) = (self.rows.len(), ABREAST / S::F64_LANES);
         let (rows, _) = S::as_mut_simd_f64s(self.rows.as_flattened_mut());
         let even = columns.width - columns.width % PANEL;
         if self.down {
             for k in (0..even).step_by(PANEL) {
                 let panel = columns.panel::<PANEL>(k, height);
-                down::<S, N, _>(simd, panel, &mut rows[k * per_row..]);
+                down::<S, _>(simd, panel, &mut rows[k * per_row..]);
             }
             for k in even..columns.width {
                 let panel = columns.panel::<1>(k, height);
-                down::<S, N, _>(simd, panel, &mut rows[k * per_row..]);
+                down::<S, _>(simd, panel, &mut rows[k * per_row..]);
             }
         } else {
             for k in (even..columns.width).rev() {
                 let panel = columns.panel::<1>(k, height);
-                up::<S, N, _>(simd, panel, &mut rows[k * per_row..]);
+                up::<S, _>(simd, panel, &mut rows[k * per_row..]);
             }
             for k in (0..even).step_by(PANEL).rev() {
                 let panel = columns.panel::<PANEL>(k, height);
-                up::<S, N, _>(simd, panel, &mut rows[k * per_row..]);
+                up::<S, _>(simd, panel, &mut rows[k * per_row..]);
             }
         }
     }
@@ -114,12 +110,8 @@ fn less<S: Simd>(simd: S, sum: S::f64s, share: f64, of: S::f64s) -> S::f64s {
 }
 
 #[inline(always)]
-fn down<S: Simd, const N: usize, const P: usize>(
-    simd: S,
-    panel: &[[f64; P]],
-    rows: &mut [S::f64s],
-) {
-    let per_row = N / S::F64_LANES;
+fn down<S: Simd, const P: usize>(simd: S, panel: &[[f64; P]], rows: &mut [S::f64s]) {
+    let per_row = ABREAST / S::F64_LANES;
     let (own, rest) = rows.split_at_mut(P * per_row);
     let (top, below) = panel.split_at(P);
     let mut v = 0;
@@ -153,12 +145,8 @@ fn down<S: Simd, const N: usize, const P: usize>(
 }
 
 #[inline(always)]
-fn up<S: Simd, const N: usize, const P: usize>(
-    simd: S,
-    panel: &[[f64; P]],
-    rows: &mut [S::f64s],
-) {
-    let per_row = N / S::F64_LANES;
+fn up<S: Simd, const P: usize>(simd: S, panel: &[[f64; P]], rows: &mut [S::f64s]) {
+    let per_row = ABREAST / S::F64_LANES;
     let (own, rest) = rows.split_at_mut(P * per_row);
     let (top, below) = panel.split_at(P);
     let mut v = 0;
@@ -233,11 +221,6 @@ mod tests {
                     assert!((product[k] + rest - known[row][k]).abs() < 1e-12);
                 }
             }
-            // Half of them alone give the same bits.
-            let mut half: Vec<[f64; HALF]> =
-                known.iter().map(|row| std::array::from_fn(|k| row[k])).collect();
-            columns.forward(&mut half);
-            assert!(half.iter().zip(&down).all(|(half, all)| half[..] == all[..HALF]));
             let mut up = known.clone();
             columns.backward(&mut up);
             for (row, known) in known[..width].iter().enumerate() {

@@ -1,7 +1,7 @@
 //! Solving with the factor: down its tree, and up again.
 
 use crate::rigidity::factor::Factor;
-use crate::rigidity::panel::{ABREAST, HALF, Row};
+use crate::rigidity::panel::{ABREAST, Row};
 use crate::rigidity::side::dealt;
 use crate::rigidity::symbolic::{Supernode, Symbolic};
 use std::ops::Range;
@@ -57,48 +57,25 @@ impl Factor<'_> {
         });
     }
 
-    /// Forward and backward on the trunk. Its supernodes wait for each other, but the
-    /// right-hand sides do not: each thread takes half of them.
+    /// Forward and backward on the trunk, whose supernodes wait for each other.
     fn solve_trunk(&self, x: &mut [Row]) {
         let nodes = || self.trunk.iter().map(|&s| &self.symbolic.supernodes[s]);
         let at = |node: &Supernode| {
             let from = self.symbolic.start[node.first];
             from..from + node.width
         };
-        let mut local = vec![0; self.symbolic.place.len()];
+        let mut part = Part::new(self.symbolic);
+        part.local = vec![0; self.symbolic.place.len()];
         let mut count = 0;
         for group in nodes().flat_map(|node| node.first..node.end) {
-            local[group] = count as u32;
+            part.local[group] = count as u32;
             count += self.symbolic.size(group);
         }
-        let take = |from: usize| {
-            let rows = nodes().flat_map(|node| &x[at(node)]);
-            let mut part = Part::<HALF>::new(self.symbolic);
-            part.beyond.reserve_exact(count);
-            part.beyond.extend(
-                rows.map(|row| -> [f64; HALF] { std::array::from_fn(|k| row[from + k]) }),
-            );
-            part.local.clone_from(&local);
-            part
-        };
-        let mut halves = [0, HALF].map(take);
-        dealt(
-            self.threads,
-            halves.iter_mut(),
-            || (),
-            |(), part| {
-                self.trunk.iter().for_each(|&s| self.forward(s, part));
-                self.trunk.iter().rev().for_each(|&s| self.backward(s, part));
-            },
-        );
-        let [first, second] = &halves;
-        let mut solved = first.beyond.iter().zip(&second.beyond);
-        for node in nodes() {
-            for (row, (first, second)) in x[at(node)].iter_mut().zip(&mut solved) {
-                row[..HALF].copy_from_slice(first);
-                row[HALF..].copy_from_slice(second);
-            }
-        }
+        part.beyond.reserve_exact(count);
+        part.beyond.extend(nodes().flat_map(|node| &x[at(node)]));
+        self.trunk.iter().for_each(|&s| self.forward(s, &mut part));
+        self.trunk.iter().rev().for_each(|&s| self.backward(s, &mut part));
+        nodes().flat_map(at).zip(part.beyond).for_each(|(row, solved)| x[row] = solved);
     }
 
     /// Runs `task` on the part of `x` that belongs to each branch; returns what each leaves
@@ -106,7 +83,7 @@ impl Factor<'_> {
     fn each_branch(
         &self,
         x: &mut [Row],
-        task: impl Fn(&mut Part<ABREAST>, usize) + Sync,
+        task: impl Fn(&mut Part, usize) + Sync,
     ) -> Vec<Vec<Row>> {
         let (symbolic, nodes) = (self.symbolic, &self.symbolic.supernodes);
         let groups = |k: usize| {
@@ -144,12 +121,12 @@ impl Factor<'_> {
         )
     }
 
-    fn forward<const N: usize>(&self, s: usize, part: &mut Part<N>) {
+    fn forward(&self, s: usize, part: &mut Part) {
         let node = &self.symbolic.supernodes[s];
         let mut rows = std::mem::take(&mut part.scratch);
         rows.clear();
         rows.extend_from_slice(part.unknowns(node));
-        rows.resize(node.width + node.below, [0.0; N]);
+        rows.resize(node.width + node.below, [0.0; ABREAST]);
         self.columns(s).forward(&mut rows);
         let (solved, mut rest) = rows.split_at(node.width);
         part.unknowns(node).copy_from_slice(solved);
@@ -162,7 +139,7 @@ impl Factor<'_> {
         part.scratch = rows;
     }
 
-    fn backward<const N: usize>(&self, s: usize, part: &mut Part<N>) {
+    fn backward(&self, s: usize, part: &mut Part) {
         let node = &self.symbolic.supernodes[s];
         let mut rows = std::mem::take(&mut part.scratch);
         rows.clear();
@@ -177,18 +154,18 @@ impl Factor<'_> {
 }
 
 /// Unknowns of some successive groups, and of those beyond that these touch.
-struct Part<'a, const N: usize> {
+struct Part<'a> {
     symbolic: &'a Symbolic,
     groups: Range<usize>,
-    own: &'a mut [[f64; N]],
-    beyond: Vec<[f64; N]>,
+    own: &'a mut [Row],
+    beyond: Vec<Row>,
     /// By group beyond, where its rows begin.
     local: Vec<u32>,
     /// The rows of one supernode.
-    scratch: Vec<[f64; N]>,
+    scratch: Vec<Row>,
 }
 
-impl<'a, const N: usize> Part<'a, N> {
+impl<'a> Part<'a> {
     fn new(symbolic: &'a Symbolic) -> Self {
         let (own, groups) = ([].as_mut(), 0..0);
         let (beyond, local, scratch) = (Vec::new(), Vec::new(), Vec::new());
@@ -202,20 +179,20 @@ impl<'a, const N: usize> Part<'a, N> {
             self.local[group as usize] = at as u32;
             at += self.symbolic.size(group as usize);
         }
-        self.beyond.resize(at, [0.0; N]);
+        self.beyond.resize(at, [0.0; ABREAST]);
     }
 
     /// The rows of a group.
-    fn rows(&mut self, group: usize) -> &mut [[f64; N]] {
+    fn rows(&mut self, group: usize) -> &mut [Row] {
         self.some(group, self.symbolic.size(group))
     }
 
     /// The rows that a supernode eliminates.
-    fn unknowns(&mut self, node: &Supernode) -> &mut [[f64; N]] {
+    fn unknowns(&mut self, node: &Supernode) -> &mut [Row] {
         self.some(node.first, node.width)
     }
 
-    fn some(&mut self, group: usize, count: usize) -> &mut [[f64; N]] {
+    fn some(&mut self, group: usize, count: usize) -> &mut [Row] {
         if group < self.groups.end {
             let first = self.symbolic.start[self.groups.start];
             let at = self.symbolic.start[group] - first;
@@ -227,6 +204,6 @@ impl<'a, const N: usize> Part<'a, N> {
     }
 }
 
-fn add<const N: usize>(into: &mut [f64; N], values: &[f64; N]) {
+fn add(into: &mut Row, values: &Row) {
     into.iter_mut().zip(values).for_each(|(x, v)| *x += v);
 }

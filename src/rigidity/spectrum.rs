@@ -10,7 +10,6 @@ use crate::rigidity::factor::{Factor, Halt};
 use crate::rigidity::lanczos::{self, Operator};
 use crate::rigidity::model::Knot;
 use crate::rigidity::panel::ABREAST;
-use crate::rigidity::side::side_by_side;
 use crate::rigidity::system::System;
 use crate::watch::Watch;
 use faer::Mat;
@@ -73,13 +72,10 @@ pub(super) fn by_inverse(
 /// Motions sorted by their resistance.
 pub(super) fn measured(system: &System, motions: Vec<Vec<f64>>) -> Modes {
     let counts = system.counts();
-    let resistance = |y: &Vec<f64>| {
-        let moved: f64 = y.iter().zip(&counts).map(|(y, n)| n * y * y).sum();
-        (system.resistance(y) / moved).sqrt()
-    };
-    let of = |(): &mut (), k: usize| resistance(&motions[k]);
-    let sigma = side_by_side(system.threads, motions.len(), || (), of);
-    let mut both: Vec<(f64, Vec<f64>)> = sigma.into_iter().zip(motions).collect();
+    let moved = |y: &[f64]| y.iter().zip(&counts).map(|(y, n)| n * y * y).sum::<f64>();
+    let resistances = system.resistances(&motions).into_iter();
+    let both = resistances.zip(motions).map(|(all, y)| ((all / moved(&y)).sqrt(), y));
+    let mut both: Vec<(f64, Vec<f64>)> = both.collect();
     both.sort_by(|a, b| a.0.total_cmp(&b.0));
     let (sigma, motions) = both.into_iter().unzip();
     Modes { sigma, motions }

@@ -122,7 +122,7 @@ impl Symbolic {
         loop {
             branches.sort_by(|&a, &b| work[b].total_cmp(&work[a]).then(a.cmp(&b)));
             let split = branches.iter().position(|&s| {
-                work[s] > total / 12.0 && !self.supernodes[s].children.is_empty()
+                work[s] > total / 4.0 && !self.supernodes[s].children.is_empty()
             });
             let Some(split) = split else { return branches };
             let s = branches.swap_remove(split);

@@ -10,13 +10,15 @@ use crate::geometry::Point3;
 use crate::rigidity::factor::{Factor, Singular};
 use crate::rigidity::model::Model;
 use crate::rigidity::motions::{Motions, Twists};
-use crate::rigidity::side::in_parts;
+use crate::rigidity::side::{in_parts, side_by_side};
 use crate::rigidity::stiffness::Stiffness;
 use crate::rigidity::symbolic::Symbolic;
 use std::ops::Range;
 
 /// Bodies with more rows than this keep their motion as unknowns.
 const MOST_ROWS: usize = 18;
+/// Bodies that are asked together.
+const TOGETHER: usize = 1000;
 
 /// The unknowns of a model, their order, and where each body's resistance goes.
 pub(super) struct System<'a> {
@@ -197,16 +199,22 @@ impl<'a> System<'a> {
         all
     }
 
-    /// `yᵀ K y` from the sleeves' deviations.
-    pub(super) fn resistance(&self, y: &[f64]) -> f64 {
-        let mut values = Vec::new();
-        let bodies = self.motions.iter().enumerate();
-        let squares = bodies.map(|(body, motions)| {
-            self.gather(body, y, &mut values);
-            motions.clear_values(&mut values);
-            values.iter().map(|x| x * x).sum::<f64>()
-        });
-        squares.sum()
+    /// `yᵀ K y` of each `y`, from the sleeves' deviations.
+    pub(super) fn resistances(&self, all: &[Vec<f64>]) -> Vec<f64> {
+        let count = self.motions.len();
+        let some = |values: &mut Vec<f64>, k: usize| {
+            let mut sums = vec![0.0; all.len()];
+            for body in k * TOGETHER..count.min((k + 1) * TOGETHER) {
+                for (sum, y) in sums.iter_mut().zip(all) {
+                    self.gather(body, y, values);
+                    self.motions[body].clear_values(values);
+                    *sum += values.iter().map(|x| x * x).sum::<f64>();
+                }
+            }
+            sums
+        };
+        let parts = side_by_side(self.threads, count.div_ceil(TOGETHER), Vec::new, some);
+        (0..all.len()).map(|k| parts.iter().map(|sums| sums[k]).sum()).collect()
     }
 
     /// How far each sleeve leaves its pin when bodies follow the heavier sleeves more.

@@ -6,7 +6,8 @@
 For each number of nodes per side: a patch of a torus, hinged fins, fin 0 held. scipy assembles K in
 numpy, factorises with SuperLU in MMD order and runs eigsh in shift-invert mode for 4 modes to 1e-9.
 Both begin at the points of the fins and end at the singular values, both to residuals of 1e-9. Neither
-start of a program is counted: both live through all runs, and the first pair is left out.
+start of a program is counted: both live through all runs, and the first pair is left out. A pause
+stands before each, because threads of numpy's BLAS that wait for work keep a core busy for a while.
 """
 
 import json
@@ -88,6 +89,9 @@ class Ours:
         return line["seconds"], line["sigma"], self.cpu() - before
 
 
+PAUSE = 0.3
+
+
 def middle(values):
     return sorted(values)[len(values) // 2]
 
@@ -98,7 +102,9 @@ def main():
         runs = 15 if n < 150 else 5
         pairs = []
         for run in range(runs + 1):
+            time.sleep(PAUSE)
             mine, sigma, cpu = ours.modes(n)
+            time.sleep(PAUSE)
             theirs, known, fins = scipy_modes(n)
             # The first pair finds the machine cold, and is not counted.
             if run > 0:
