@@ -284,7 +284,7 @@ fn say(verdict: &Verdict, model: &Model, voice: Voice) {
             .map_or_else(|| "unknown".to_owned(), |count| count.to_string())
     ));
     voice.say(&verdict.summary());
-    for line in verdict.remedies_in_words() {
+    for line in verdict.stiff_in_words().into_iter().chain(verdict.remedies_in_words()) {
         voice.say(&line);
     }
 }

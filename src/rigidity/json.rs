@@ -37,6 +37,7 @@ impl Verdict {
         let still = Bracket { lower: 0.0, upper: 0.0 };
         let moves = self.outcome() == Outcome::Mechanism || sway.is_some();
         let amplification = if moves { amplification } else { Some(still) };
+        let stiff = sway.and_then(|sway| sway.stiff);
         json!({
             "joint": joint.into().map(Joint::name),
             "bodies": self.bodies.len(),
@@ -46,6 +47,7 @@ impl Verdict {
             "spectrum": spectrum,
             "play_mm": six(self.play_mm),
             "amplification": bracket(amplification, 1.0),
+            "amplification_stiff": bracket(stiff, 1.0),
             "sway_mm": bracket(amplification, self.play_mm),
             "sway_limit_mm": sway.map(|sway| six(sway.limit_mm)),
             "node": sway.map(|sway| sway.node).or(self.loose),

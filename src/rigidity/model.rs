@@ -53,6 +53,14 @@ impl Knot {
         self.points.len() == 2
     }
 
+    /// A point that some bodies of a pin share, off its axis by half its length.
+    fn slot_of(&self, bodies: Vec<usize>) -> Self {
+        let axis = self.points[1] - self.points[0];
+        let away = across(axis) * (axis.norm() / 2.0);
+        let points = vec![self.place() + away];
+        Self { node: self.node, points, bodies, held: false, share: 0.0 }
+    }
+
     /// The node's place on it, mm.
     pub fn place(&self) -> Point3 {
         let (first, last) = (self.points[0], self.points[self.points.len() - 1]);
@@ -170,22 +178,23 @@ impl Model {
         self.knots.iter().position(|knot| knot.is_pin() && knot.node == node)
     }
 
-    /// The same with two bodies of a pin made one as far as turning about its axis goes:
-    /// a slot that both share, off the axis by half the pin's length.
+    /// The same with two bodies of a pin made one as far as turning about its axis goes, by a
+    /// slot that both share.
     #[must_use]
     pub fn welded(mut self, pin: usize, bodies: [usize; 2]) -> Self {
-        let knot = &self.knots[pin];
-        let axis = knot.points[1] - knot.points[0];
-        let away = across(axis) * (axis.norm() / 2.0);
-        let points = vec![knot.place() + away];
-        let slot = Knot {
-            node: knot.node,
-            points,
-            bodies: bodies.to_vec(),
-            held: false,
-            share: 0.0,
-        };
+        let slot = self.knots[pin].slot_of(bodies.to_vec());
         self.knots.push(slot);
+        Self::new(self.bodies, self.knots)
+    }
+
+    /// The same with all bodies of every pin made one in that way.
+    #[must_use]
+    pub fn stiff(mut self) -> Self {
+        let joints =
+            self.knots.iter().filter(|knot| knot.is_pin() && knot.bodies.len() > 1);
+        let slots: Vec<Knot> =
+            joints.map(|pin| pin.slot_of(pin.bodies.clone())).collect();
+        self.knots.extend(slots);
         Self::new(self.bodies, self.knots)
     }
 

@@ -46,6 +46,24 @@ pub(super) fn pack(columns: &[f64], width: usize, into: &mut Vec<f64>) {
 }
 
 impl<'a> Columns<'a> {
+    /// The columns one after another as they were before they were packed, `height` numbers
+    /// each, zeros above the diagonal.
+    pub(super) fn unpacked(self, height: usize) -> Vec<f64> {
+        let mut columns = vec![0.0; self.width * height];
+        let even = self.width - self.width % PANEL;
+        for k in (0..even).step_by(PANEL) {
+            for (row, values) in (k..height).zip(self.panel::<PANEL>(k, height)) {
+                let some = values.iter().enumerate().take(row - k + 1);
+                some.for_each(|(j, x)| columns[(k + j) * height + row] = *x);
+            }
+        }
+        for k in even..self.width {
+            let values = self.panel::<1>(k, height).as_flattened();
+            columns[k * height + k..(k + 1) * height].copy_from_slice(values);
+        }
+        columns
+    }
+
     /// Solves for the first `width` rows, and takes what they cause from the rest.
     pub(super) fn forward(self, rows: &mut [Row]) {
         Arch::new().dispatch(Sweep { columns: self, rows, down: true });
@@ -200,7 +218,12 @@ mod tests {
             let mut values = Vec::new();
             pack(&columns, width, &mut values);
             assert_eq!(values.len(), packed(width, height));
-            let columns = Columns { values: &values, width };
+            let packed = Columns { values: &values, width };
+            let back = packed.unpacked(height);
+            let below = (0..width * height).filter(|k| k % height >= k / height);
+            assert!(below.clone().all(|k| back[k].to_bits() == columns[k].to_bits()));
+            assert_eq!(back.iter().filter(|x| **x != 0.0).count(), below.count());
+            let columns = packed;
             let known: Vec<Row> = (0..height)
                 .map(|row| std::array::from_fn(|k| noise(8 * row + k)))
                 .collect();

@@ -2,7 +2,8 @@
 
 use crate::geometry::{Point3, Vector3};
 use crate::rigidity::amplify::{Bracket, Bracketing, Load};
-use crate::rigidity::factor::{Factor, Halt};
+use crate::rigidity::compliance::compliances;
+use crate::rigidity::factor::Halt;
 use crate::rigidity::model::Model;
 use crate::rigidity::spectrum::Modes;
 use crate::rigidity::system::System;
@@ -12,14 +13,13 @@ use crate::watch::Watch;
 use nalgebra::Matrix3;
 use std::collections::BTreeSet;
 
-/// Up to this many free pins the compliance of every node is solved for; beyond it the
-/// least resisted motions say where to look.
-const ALL_NODES: usize = 600;
 /// Nodes of largest compliance that are looked at.
 const TOP: usize = 5;
 /// Rounds of tightening in all before it is content with a wide bracket, while the verdict
 /// is open.
 const MOST_ROUNDS: usize = 60;
+/// Rounds that a mere comparison is worth.
+const FEW_ROUNDS: usize = 15;
 /// The same times unknowns when the verdict stands and only the figures are wide.
 const MOST_WORK: usize = 500_000;
 
@@ -41,6 +41,8 @@ pub struct Sway {
     pub limit_mm: f64,
     /// From the node to the nearest support, or the size of what floats, mm.
     pub span_mm: f64,
+    /// The same with every joint stiff, as far as it was computed.
+    pub stiff: Option<Bracket>,
     /// Largest amplification over limit at any node and direction that was looked at, as
     /// bounds, 1/mm.
     pub demand: Bracket,
@@ -87,7 +89,7 @@ pub(super) fn worst(
     let rigid = if system.floats { system.rigid() } else { Vec::new() };
     let spans = spans(system.model);
     let wall = |knot: usize| limit.of(spans[knot]);
-    let compliances = compliances(system, &factor, &rigid, modes);
+    let compliances = compliances(system, &factor, &rigid, watch)?;
     let chosen = chosen(system, &compliances, modes, &wall);
     let loads = chosen.iter().flat_map(|knot| {
         let axes = compliances.iter().find(|(k, _)| k == knot).map(|(_, m)| *m);
@@ -112,10 +114,40 @@ pub(super) fn worst(
         node: system.model.knots[worst.load.knot].node,
         direction: worst.load.direction,
         bracket: worst.bracket(),
+        stiff: None,
         limit_mm: wall(worst.load.knot),
         span_mm: spans[worst.load.knot],
         demand: Bracket { lower: demand(|b| b.lower), upper: demand(|b| b.upper) },
     }))
+}
+
+/// Sway over play at the same node and direction if all bodies of each pin were one: what
+/// making joints stiff can do at best (notes §3.4).
+///
+/// # Errors
+/// [`Halt`] if a factorisation fails or the watch stops it.
+pub(super) fn with_stiff_joints(
+    system: &System,
+    sway: &Sway,
+    watch: &dyn Watch,
+) -> Result<Option<Bracket>, Halt> {
+    let model = system.model.clone().stiff();
+    let stiff = System::new(&model, system.fixed, system.threads);
+    let rigid = if stiff.floats { stiff.rigid() } else { Vec::new() };
+    let load = model
+        .pin(sway.node)
+        .and_then(|pin| Load::new(&stiff, &rigid, pin, sway.direction));
+    let factor = stiff.factor(None)?;
+    let mut found = Bracketing::first(&stiff, &factor, load.into_iter().collect());
+    let Some(found) = found.first_mut() else { return Ok(None) };
+    for _ in 0..rounds_for_figures(&stiff).min(FEW_ROUNDS) {
+        Halt::if_stopped(watch)?;
+        if found.bracket().is_narrow() {
+            break;
+        }
+        found.tighten()?;
+    }
+    Ok(Some(found.bracket()).filter(|b| b.lower <= b.upper))
 }
 
 /// The same direction or its opposite, whichever has its largest entry positive.
@@ -157,66 +189,6 @@ fn tighten(
         all[top].tighten()?;
     }
     Ok(())
-}
-
-/// Compliance of nodes, the 3 × 3 block of `K⁻¹` seen from the node: knot and block.
-fn compliances(
-    system: &System,
-    factor: &Factor,
-    rigid: &[Vec<f64>],
-    modes: &Modes,
-) -> Vec<(usize, Matrix3<f64>)> {
-    let knots = 0..system.model.knots.len();
-    let free: Vec<usize> = knots
-        .filter(|&k| system.knot_at[k].is_some() && system.model.knots[k].is_pin())
-        .collect();
-    if free.len() <= ALL_NODES {
-        return free
-            .chunks(8)
-            .flat_map(|part| solved(system, factor, rigid, part))
-            .collect();
-    }
-    let counts = system.counts();
-    let estimate = |&knot: &usize| {
-        let mut block = Matrix3::zeros();
-        for (y, sigma) in modes.motions.iter().zip(&modes.sigma) {
-            let size: f64 = y.iter().zip(&counts).map(|(y, n)| n * y * y).sum();
-            let v = node_velocity(system, knot, y);
-            block += v * v.transpose() / (size * sigma * sigma);
-        }
-        (knot, block)
-    };
-    free.iter().map(estimate).collect()
-}
-
-fn solved(
-    system: &System,
-    factor: &Factor,
-    rigid: &[Vec<f64>],
-    knots: &[usize],
-) -> Vec<(usize, Matrix3<f64>)> {
-    let axes = [Vector3::x(), Vector3::y(), Vector3::z()];
-    let loads: Vec<Load> = knots
-        .iter()
-        .flat_map(|&k| axes.iter().filter_map(move |&d| Load::new(system, rigid, k, d)))
-        .collect();
-    let count = loads.len();
-    let mut x = vec![0.0; system.unknowns() * count];
-    for (i, row) in x.chunks_exact_mut(count).enumerate() {
-        row.iter_mut().zip(&loads).for_each(|(x, load)| *x = load.forces[i]);
-    }
-    factor.solve(&mut x, count);
-    let work = |a: usize, b: usize| -> f64 {
-        let forces = loads[a].forces.iter();
-        forces.zip(x.chunks_exact(count)).map(|(f, row)| f * row[b]).sum()
-    };
-    let block = |(k, &knot): (usize, &usize)| {
-        let block = Matrix3::from_fn(|i, j| {
-            (work(3 * k + i, 3 * k + j) + work(3 * k + j, 3 * k + i)) / 2.0
-        });
-        (knot, block)
-    };
-    knots.iter().enumerate().map(block).collect()
 }
 
 /// Where to look: the nodes of largest compliance for their limit, the one that moves most

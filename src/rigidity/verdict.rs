@@ -235,6 +235,13 @@ impl Verdict {
         let more = sway::rounds_for_figures(system);
         let asked = (self.play_mm, question.limit, more);
         self.sway = sway::worst(system, &modes, asked, watch)?;
+        if let Some(sway) = &mut self.sway {
+            sway.stiff = match sway::with_stiff_joints(system, sway, watch) {
+                // Nothing hangs on it.
+                Err(Halt::Failed) => None,
+                found => found?,
+            };
+        }
         self.weigh();
         Ok(())
     }
@@ -296,6 +303,21 @@ impl Verdict {
     /// The play at which it would be rigid, mm.
     pub fn play_to_pass(&self) -> Option<f64> {
         self.sway.as_ref().map(|sway| 1.0 / sway.demand.upper)
+    }
+
+    /// What stiff joints would do at best, in words.
+    pub fn stiff_in_words(&self) -> Option<String> {
+        let sway = self.sway.as_ref()?;
+        let stiff = Sway { bracket: sway.stiff?, ..sway.clone() };
+        let way = in_words(&stiff, self.play_mm);
+        let least = sway.bracket.lower / stiff.bracket.upper;
+        let most = sway.bracket.upper / stiff.bracket.lower;
+        let less = if least >= 1.0 {
+            format!(", {least:.1} to {most:.1} times less")
+        } else {
+            String::new()
+        };
+        Some(format!("if every joint were stiff: {way}{less}"))
     }
 
     /// What would help, as far as it was asked.

@@ -48,6 +48,9 @@ pub(super) fn verdict(job: &Job, joint: Joint) -> String {
         let reason = html::text(reason);
         text += &format!("<p>Accepted as flexible on purpose: <q>{reason}</q></p>\n");
     }
+    if let Some(stiff) = verdict.stiff_in_words() {
+        text += &format!("<p>For comparison, {}.</p>\n", html::text(&stiff));
+    }
     text += &remedies(verdict);
     text + &format!("<p class=\"small\">Joint: {}.</p>\n", joint_in_words(joint))
 }

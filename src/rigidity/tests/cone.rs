@@ -122,6 +122,7 @@ fn brackets_hold_what_a_cone_program_finds() {
         ("flat strips, jittered", parallel(6, true, 0.2)),
         ("torus strips, held all round", held_all_round(torus(7, true), 7)),
         ("torus fins, a weld", torus(5, false).welded(12, [20, 22])),
+        ("torus fins, every joint stiff", torus(5, false).stiff()),
     ];
     for (name, model) in cases {
         let system = System::new(&model, None, 1);

@@ -5,6 +5,8 @@ mod nets;
 
 use super::*;
 use crate::geometry::{Point3, Vector3};
+use crate::rigidity::amplify::Load;
+use crate::rigidity::compliance::compliances;
 use crate::rigidity::mobility::mobility;
 use crate::rigidity::spectrum::{by_inverse, dense, least};
 use crate::rigidity::system::System;
@@ -57,6 +59,34 @@ fn dense_and_sparse_agree() {
             let sparse = by_inverse(&system, &factor, 6, &()).unwrap();
             for (a, b) in dense.sigma.iter().zip(&sparse.sigma) {
                 assert!(close(*a, *b, 1e-7), "{:?} {:?}", dense.sigma, sparse.sigma);
+            }
+        }
+    }
+}
+
+#[test]
+fn compliances_are_what_unit_loads_move() {
+    let held = held_all_round(combescure(9, false), 9);
+    for model in [torus(8, false), held, torus(9, true), torus(31, false)] {
+        let system = System::new(&model, None, 2);
+        let factor = system.factor(None).unwrap();
+        let rigid = if system.floats { system.rigid() } else { Vec::new() };
+        let found = compliances(&system, &factor, &rigid, &()).unwrap();
+        let free = model.knots.iter().filter(|knot| knot.is_pin() && !knot.held);
+        assert_eq!(found.len(), free.count());
+        let few = found.iter().step_by(found.len() / 7);
+        for (knot, block) in few.chain(found.last()) {
+            let load =
+                |i| Load::new(&system, &rigid, *knot, Vector3::ith(i, 1.0)).unwrap();
+            for i in 0..3 {
+                let mut moved = load(i).forces;
+                factor.solve(&mut moved, 1);
+                for j in 0..3 {
+                    let forces = load(j).forces;
+                    let known: f64 = forces.iter().zip(&moved).map(|(f, y)| f * y).sum();
+                    let off = (block[(j, i)] - known).abs();
+                    assert!(off < 1e-7 * block.trace(), "{knot} {i} {j} {known} {block}");
+                }
             }
         }
     }
@@ -199,6 +229,22 @@ fn greedy_welds_are_as_few_as_the_mobility() {
         let left: Vec<usize> = welds.map(|r| r.mobility_after).collect();
         assert_eq!(left, (0..7).rev().collect::<Vec<_>>());
     }
+}
+
+#[test]
+fn stiff_joints_help_most_where_supports_are_few() {
+    let n = 12;
+    let one_side = (0..n).fold(torus(n, false), Model::with_held);
+    let times = |model: &Model| {
+        let verdict =
+            judge(model, &question(), Fingerprint::of_nothing(), &mut ()).unwrap();
+        let sway = verdict.sway().unwrap();
+        let stiff = sway.stiff.unwrap();
+        assert!(stiff.lower <= sway.bracket.upper && stiff.lower > 0.0);
+        (sway.bracket.lower / stiff.upper, sway.bracket.upper / stiff.lower)
+    };
+    let (free, held) = (times(&one_side), times(&held_all_round(torus(n, false), n)));
+    assert!(free.0 > 5.0 && held.1 < 0.5 * free.0, "{free:?} {held:?}");
 }
 
 #[test]
