@@ -12,6 +12,7 @@
 
 use crate::geometry::Vector3;
 use crate::rigidity::factor::{Factor, Singular};
+use crate::rigidity::stiffness::Stiffness;
 use crate::rigidity::system::System;
 use crate::tolerance::{BRACKET_WIDTH, FORCE_BALANCE, LEAST_WEIGHT};
 
@@ -123,7 +124,7 @@ impl<'a> Bracketing<'a> {
         }
         let sleeves = system.sleeve[system.sleeve.len() - 1];
         let begun = loads.into_iter().enumerate().map(|(k, load)| {
-            let y = x.chunks_exact(count).map(|row| row[k]).collect();
+            let y: Vec<f64> = x.chunks_exact(count).map(|row| row[k]).collect();
             let proof = Proof {
                 bracket: Bracket::OPEN,
                 motion: Vec::new(),
@@ -132,7 +133,7 @@ impl<'a> Bracketing<'a> {
             };
             let (weights, floor) = (vec![1.0; sleeves], FIRST_FLOOR);
             let mut begun = Self { system, load, proof, weights, floor };
-            begun.learn(y);
+            begun.learn(&y, &system.deviations(&y));
             begun
         });
         begun.collect()
@@ -143,16 +144,15 @@ impl<'a> Bracketing<'a> {
     /// # Errors
     /// [`Singular`] if the factorisation fails.
     pub(super) fn tighten(&mut self) -> Result<(), Singular> {
-        let factor = self.system.factor(Some(&self.weights))?;
+        let stiffness = Stiffness::new(self.system, Some(&self.weights));
         let mut y = self.load.forces.clone();
-        factor.solve(&mut y, 1);
-        self.learn(y);
+        stiffness.factor()?.solve(&mut y, 1);
+        self.learn(&y, &stiffness.deviations(&y));
         Ok(())
     }
 
-    /// Bounds and the next weights from a solution.
-    fn learn(&mut self, y: Vec<f64>) {
-        let off = self.system.weighted_deviations(&y, &self.weights);
+    /// Bounds and the next weights from a solution and what the sleeves deviate in it.
+    fn learn(&mut self, y: &[f64], off: &[f64]) {
         let sizes: Vec<f64> = off
             .chunks_exact(3)
             .map(|d| d.iter().map(|x| x * x).sum::<f64>().sqrt())

@@ -105,7 +105,7 @@ impl Matrix<'_> {
         watch: &dyn Watch,
     ) -> Result<Solved, Halt> {
         let system = System::new(self.model, Some(0), threads);
-        let factor = system.factor(None)?;
+        let factor = system.factor()?;
         let twists = system.twists();
         let inverse = PinInverse { system: &system, factor: &factor, twists };
         let vectors = lanczos::largest(&inverse, wanted, watch)?;

@@ -45,7 +45,7 @@ pub(super) fn mobility(
         let zero = all.sigma.iter().take_while(|s| **s <= NO_RESISTANCE).count();
         all.motions.into_iter().take(zero).collect()
     } else {
-        null_space(system, &system.factor(None)?, watch)?
+        null_space(system, &system.factor()?, watch)?
     };
     let fixed = system.fixed();
     let spins = (0..system.motions.len()).filter(|&body| Some(body) != fixed);

@@ -42,7 +42,7 @@ pub(super) fn least(
     let modes = if is_dense(system) {
         dense(system, wanted)?
     } else {
-        by_inverse(system, &system.factor(None)?, wanted, watch)?
+        by_inverse(system, &system.factor()?, wanted, watch)?
     };
     let found = modes.sigma.iter().all(|sigma| sigma.is_finite());
     if found { Ok(modes) } else { Err(Halt::Failed) }

@@ -1,6 +1,6 @@
 //! What the factor is made from: the resistance of each body, sleeves with weights.
 
-use crate::rigidity::factor::Entries;
+use crate::rigidity::factor::{Entries, Factor, Singular};
 use crate::rigidity::motions::Motions;
 use crate::rigidity::side::in_parts;
 use crate::rigidity::system::{Job, Span, System};
@@ -42,6 +42,37 @@ impl<'a> Stiffness<'a> {
         let mut stiffness = Self { system, weighted, diagonal };
         stiffness.add_own();
         stiffness
+    }
+
+    /// Its factor.
+    ///
+    /// # Errors
+    /// [`Singular`] if a motion meets no resistance even with the shift.
+    pub(super) fn factor(&self) -> Result<Factor<'a>, Singular> {
+        Factor::new(&self.system.symbolic, self, self.system.threads)
+    }
+
+    /// How far each sleeve leaves its pin when bodies follow the heavier sleeves more, three
+    /// numbers per sleeve.
+    pub(super) fn deviations(&self, y: &[f64]) -> Vec<f64> {
+        let system = self.system;
+        let some = |part: Range<usize>| {
+            let (mut all, mut values) = (Vec::new(), Vec::new());
+            for body in part {
+                system.gather(body, y, &mut values);
+                for (velocity, sleeve) in
+                    values.chunks_exact_mut(3).zip(system.sleeve[body]..)
+                {
+                    velocity.iter_mut().for_each(|x| *x *= self.root(sleeve));
+                }
+                self.motions(body).clear_values(&mut values);
+                for (off, sleeve) in values.chunks_exact(3).zip(system.sleeve[body]..) {
+                    all.extend(off.iter().map(|x| x / self.root(sleeve)));
+                }
+            }
+            all
+        };
+        in_parts(system.motions.len(), system.threads, some)
     }
 
     /// Bodies that keep their motion: its six unknowns, and the weights on their knots.

@@ -19,7 +19,7 @@ const TOP: usize = 5;
 /// is open.
 const MOST_ROUNDS: usize = 60;
 /// Rounds that a mere comparison is worth.
-const FEW_ROUNDS: usize = 15;
+const FEW_ROUNDS: usize = 6;
 /// The same times unknowns when the verdict stands and only the figures are wide.
 const MOST_WORK: usize = 500_000;
 
@@ -85,7 +85,7 @@ pub(super) fn worst(
     (play, limit, more): (f64, SwayLimit, usize),
     watch: &dyn Watch,
 ) -> Result<Option<Sway>, Halt> {
-    let factor = system.factor(None)?;
+    let factor = system.factor()?;
     let rigid = if system.floats { system.rigid() } else { Vec::new() };
     let spans = spans(system.model);
     let wall = |knot: usize| limit.of(spans[knot]);
@@ -137,7 +137,7 @@ pub(super) fn with_stiff_joints(
     let load = model
         .pin(sway.node)
         .and_then(|pin| Load::new(&stiff, &rigid, pin, sway.direction));
-    let factor = stiff.factor(None)?;
+    let factor = stiff.factor()?;
     let mut found = Bracketing::first(&stiff, &factor, load.into_iter().collect());
     let Some(found) = found.first_mut() else { return Ok(None) };
     for _ in 0..rounds_for_figures(&stiff).min(FEW_ROUNDS) {

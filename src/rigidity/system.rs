@@ -217,30 +217,6 @@ impl<'a> System<'a> {
         (0..all.len()).map(|k| parts.iter().map(|sums| sums[k]).sum()).collect()
     }
 
-    /// How far each sleeve leaves its pin when bodies follow the heavier sleeves more.
-    pub(super) fn weighted_deviations(&self, y: &[f64], weights: &[f64]) -> Vec<f64> {
-        let bodies = 0..self.motions.len();
-        let roots: Vec<f64> = weights.iter().map(|w| w.sqrt()).collect();
-        let of = |body: usize| {
-            let range = self.sleeve[body]..self.sleeve[body + 1];
-            let roots = &roots[range];
-            let mut values = Vec::new();
-            self.gather(body, y, &mut values);
-            if self.fixed != Some(body) {
-                let motions = Motions::new(&self.model.points(body), roots);
-                let scale = |values: &mut [f64], by: &dyn Fn(f64) -> f64| {
-                    let each = values.chunks_exact_mut(3).zip(roots);
-                    each.for_each(|(v, root)| v.iter_mut().for_each(|x| *x *= by(*root)));
-                };
-                scale(&mut values, &|root| root);
-                motions.clear_values(&mut values);
-                scale(&mut values, &|root| 1.0 / root);
-            }
-            values
-        };
-        bodies.flat_map(of).collect()
-    }
-
     /// Adds up sleeve values on the unknowns: the transpose of gathering.
     pub(super) fn scatter(&self, sleeves: &[f64]) -> Vec<f64> {
         let mut y = vec![0.0; self.unknowns()];
@@ -279,13 +255,12 @@ impl<'a> System<'a> {
         (0..motions.rank).map(spread).collect()
     }
 
-    /// Factorises the resistance, each sleeve with its weight.
+    /// Factorises the resistance.
     ///
     /// # Errors
     /// [`Singular`] if a motion meets no resistance even with the shift.
-    pub(super) fn factor(&self, weights: Option<&[f64]>) -> Result<Factor<'_>, Singular> {
-        let stiffness = Stiffness::new(self, weights);
-        Factor::new(&self.symbolic, &stiffness, self.threads)
+    pub(super) fn factor(&self) -> Result<Factor<'_>, Singular> {
+        Stiffness::new(self, None).factor()
     }
 
     /// Six unknowns that hold the whole still and strain nothing, and how strongly.

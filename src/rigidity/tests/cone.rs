@@ -134,7 +134,7 @@ fn brackets_hold_what_a_cone_program_finds() {
             .unwrap();
         let load = Load::new(&system, &rigid, knot, Vector3::z()).unwrap();
         let known = by_cone_program(&system, &load);
-        let factor = system.factor(None).unwrap();
+        let factor = system.factor().unwrap();
         let mut found = Bracketing::first(&system, &factor, vec![load]).remove(0);
         for round in 0..16 {
             let Bracket { lower, upper } = found.bracket();

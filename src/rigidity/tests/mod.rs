@@ -55,7 +55,7 @@ fn dense_and_sparse_agree() {
         for fixed in [None, Some(0)] {
             let system = System::new(&model, fixed, 1);
             let dense = dense(&system, 6).unwrap();
-            let factor = system.factor(None).unwrap();
+            let factor = system.factor().unwrap();
             let sparse = by_inverse(&system, &factor, 6, &()).unwrap();
             for (a, b) in dense.sigma.iter().zip(&sparse.sigma) {
                 assert!(close(*a, *b, 1e-7), "{:?} {:?}", dense.sigma, sparse.sigma);
@@ -69,7 +69,7 @@ fn compliances_are_what_unit_loads_move() {
     let held = held_all_round(combescure(9, false), 9);
     for model in [torus(8, false), held, torus(9, true), torus(31, false)] {
         let system = System::new(&model, None, 2);
-        let factor = system.factor(None).unwrap();
+        let factor = system.factor().unwrap();
         let rigid = if system.floats { system.rigid() } else { Vec::new() };
         let found = compliances(&system, &factor, &rigid, &()).unwrap();
         let free = model.knots.iter().filter(|knot| knot.is_pin() && !knot.held);
@@ -213,7 +213,7 @@ fn one_thread_and_two_give_the_same_bits() {
     let model = torus(34, false);
     let sigma = |threads: usize| {
         let system = System::new(&model, None, threads);
-        let factor = system.factor(None).unwrap();
+        let factor = system.factor().unwrap();
         by_inverse(&system, &factor, 4, &()).unwrap().sigma
     };
     assert!(System::new(&model, None, 1).unknowns() > 5000);
