@@ -6,14 +6,12 @@
 use crate::rigidity::abreast;
 use crate::rigidity::block::{Block, clear, orthonormal, triangle};
 use crate::rigidity::panel::ABREAST;
-use crate::rigidity::side::dealt;
+use crate::rigidity::side::{dealt, worthwhile};
 use faer::linalg::matmul::matmul;
 use faer::{Accum, Mat, MatMut, MatRef, Par};
 
 /// Rows of a piece, so that it stays in the cache.
 const ROWS: usize = 512;
-/// Below so many rows threads cost more than they save.
-const FEW: usize = 5000;
 /// Blocks at the end of a basis in which the next one has its share, but for rounding.
 const NEAR: usize = 2;
 
@@ -46,8 +44,7 @@ struct Piece<'a> {
 impl Basis {
     /// Begins with `blocks`.
     pub(super) fn new(blocks: Vec<Block>, rows: usize, threads: usize) -> Self {
-        let threads = if rows < FEW { 1 } else { threads };
-        Self { barred: blocks.len(), blocks, threads }
+        Self { barred: blocks.len(), blocks, threads: worthwhile(threads, rows) }
     }
 
     /// Takes from each column of an operator's image of the last block its share in the

@@ -7,7 +7,7 @@
 
 use crate::rigidity::front::Work;
 use crate::rigidity::panel::{Columns, pack};
-use crate::rigidity::side::side_by_side;
+use crate::rigidity::side::{side_by_side, worthwhile};
 use crate::rigidity::symbolic::{Supernode, Symbolic};
 use crate::watch::Watch;
 use std::ops::Range;
@@ -47,9 +47,6 @@ impl Halt {
     }
 }
 
-/// Below so many unknowns threads cost more than they save.
-const FEW: usize = 5000;
-
 /// Fronts of the trunk that are gathered before they are needed.
 const AHEAD: usize = 2;
 
@@ -78,7 +75,7 @@ impl<'a> Factor<'a> {
         threads: usize,
     ) -> Result<Self, Singular> {
         let branches = symbolic.branches();
-        let threads = if symbolic.unknowns() < FEW { 1 } else { threads };
+        let threads = worthwhile(threads, symbolic.unknowns());
         let (shelves, spots) = (Vec::new(), Vec::new());
         let trunk = trunk(symbolic, &branches);
         let mut factor = Self { symbolic, branches, trunk, shelves, spots, threads };

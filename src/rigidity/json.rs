@@ -37,7 +37,8 @@ impl Verdict {
         let still = Bracket { lower: 0.0, upper: 0.0 };
         let moves = self.outcome() == Outcome::Mechanism || sway.is_some();
         let amplification = if moves { amplification } else { Some(still) };
-        let stiff = sway.and_then(|sway| sway.stiff);
+        let stiff =
+            if moves { self.stiff.filter(|_| sway.is_some()) } else { Some(still) };
         json!({
             "joint": joint.into().map(Joint::name),
             "bodies": self.bodies.len(),

@@ -7,6 +7,7 @@ use crate::rigidity::lanczos::{self, Operator};
 use crate::rigidity::model::Model;
 use crate::rigidity::motions::Twists;
 use crate::rigidity::paper::{Pairing, free_rank, velocity};
+use crate::rigidity::side::{side_by_side, worthwhile};
 use crate::rigidity::system::System;
 use crate::watch::Watch;
 use faer::Mat;
@@ -118,7 +119,7 @@ impl Matrix<'_> {
             })
             .collect();
         found.sort_by(|a, b| a.0.total_cmp(&b.0));
-        let top = lanczos::largest(&Square(self), 1, watch)?;
+        let top = lanczos::largest(&Square { matrix: self, threads }, 1, watch)?;
         let top = self.apply(&self.twists(|i| top.values[i]));
         let largest = top.iter().map(|x| x * x).sum::<f64>().sqrt();
         let (sigma, twists) = found.into_iter().unzip();
@@ -127,21 +128,28 @@ impl Matrix<'_> {
 }
 
 /// `AᵀA`.
-struct Square<'a>(&'a Matrix<'a>);
+struct Square<'a> {
+    matrix: &'a Matrix<'a>,
+    threads: usize,
+}
 
 impl Operator for Square<'_> {
     fn size(&self) -> usize {
-        self.0.size()
+        self.matrix.size()
     }
 
     fn apply(&self, block: &Block, into: &mut Block) {
-        let image = |k: usize| {
+        let image = |(): &mut (), k: usize| {
             let column = block.column(k);
-            let twists = self.0.twists(|i| column[i]);
-            self.0.transposed(&self.0.apply(&twists))
+            let twists = self.matrix.twists(|i| column[i]);
+            self.matrix.transposed(&self.matrix.apply(&twists))
         };
-        let images: Vec<Vec<f64>> = (0..block.columns).map(image).collect();
+        let images = side_by_side(self.threads(), block.columns, || (), image);
         *into = Block::from_columns(block.rows, &images);
+    }
+
+    fn threads(&self) -> usize {
+        worthwhile(self.threads, self.size())
     }
 }
 
@@ -155,13 +163,42 @@ struct PinInverse<'a> {
 }
 
 impl PinInverse<'_> {
-    /// `Tᵀ x` of one body.
-    fn shares(&self, body: usize, x: impl Fn(usize) -> f64) -> [f64; 6] {
-        let mut shares = [0.0; 6];
-        for (share, twist) in shares.iter_mut().zip(&self.twists[body]) {
-            *share = twist.iter().enumerate().map(|(k, t)| t * x(6 * body - 6 + k)).sum();
+    /// `Q z` on the pins, and `z = Tᵀ x` of each body but the one that is held.
+    fn push(&self, x: &[f64]) -> (Vec<f64>, Vec<[f64; 6]>) {
+        let system = self.system;
+        let mut sleeves = vec![0.0; 3 * system.sleeve[1]];
+        let (x, _) = x.as_chunks::<6>();
+        let bodies = x.iter().zip(&self.twists[1..]).zip(&system.motions[1..]);
+        let all = bodies.map(|((x, twists), motions)| {
+            let z = twists.map(|twist| twist.iter().zip(x).map(|(t, x)| t * x).sum());
+            let from = sleeves.len();
+            sleeves.resize(from + motions.rows, 0.0);
+            for (j, z) in z.iter().enumerate().take(motions.rank) {
+                let column = motions.column(j).iter();
+                sleeves[from..]
+                    .iter_mut()
+                    .zip(column)
+                    .for_each(|(s, q): (_, &f64)| *s += z * q);
+            }
+            z
+        });
+        let all = all.collect();
+        (system.scatter(&sleeves), all)
+    }
+
+    /// `T (z + Qᵀ y)`.
+    fn follow(&self, y: &[f64], shares: &[[f64; 6]]) -> Vec<f64> {
+        let (mut image, mut values) = (Vec::with_capacity(self.size()), Vec::new());
+        for (body, z) in (1..).zip(shares) {
+            self.system.gather(body, y, &mut values);
+            let back = self.system.motions[body].shares(&values);
+            let mut x = [0.0; 6];
+            for (twist, (z, back)) in self.twists[body].iter().zip(z.iter().zip(back)) {
+                x.iter_mut().zip(twist).for_each(|(x, t)| *x += t * (z + back));
+            }
+            image.extend(x);
         }
-        shares
+        image
     }
 }
 
@@ -171,45 +208,19 @@ impl Operator for PinInverse<'_> {
     }
 
     fn apply(&self, block: &Block, into: &mut Block) {
-        let (system, count) = (self.system, block.columns);
-        let bodies = 1..system.motions.len();
-        let mut right = vec![0.0; system.unknowns() * count];
-        let mut shares = vec![vec![[0.0; 6]; count]; system.motions.len()];
-        for k in 0..count {
-            let mut sleeves = vec![0.0; 3 * system.sleeve[1]];
-            for body in bodies.clone() {
-                let z = self.shares(body, |i| block.values[i * count + k]);
-                let motions = &system.motions[body];
-                let from = sleeves.len();
-                sleeves.resize(from + motions.rows, 0.0);
-                for (j, z) in z.iter().enumerate().take(motions.rank) {
-                    let column = motions.column(j).iter();
-                    sleeves[from..].iter_mut().zip(column).for_each(|(s, q)| *s += z * q);
-                }
-                shares[body][k] = z;
-            }
-            let y = system.scatter(&sleeves);
-            for (row, y) in right.chunks_exact_mut(count).zip(y) {
-                row[k] = y;
-            }
-        }
-        self.factor.solve(&mut right, count);
-        let mut image = Block::zeros(block.rows, count);
-        let mut values = Vec::new();
-        for k in 0..count {
-            let y: Vec<f64> = right.chunks_exact(count).map(|row| row[k]).collect();
-            for body in bodies.clone() {
-                system.gather(body, &y, &mut values);
-                let motions = &system.motions[body];
-                let back = motions.shares(&values);
-                for (j, twist) in self.twists[body].iter().enumerate() {
-                    let z = shares[body][k][j] + back[j];
-                    for (i, t) in twist.iter().enumerate() {
-                        image.values[(6 * body - 6 + i) * count + k] += t * z;
-                    }
-                }
-            }
-        }
-        *into = image;
+        let (count, threads) = (block.columns, self.threads());
+        let (pushed, shares): (Vec<_>, Vec<_>) =
+            side_by_side(threads, count, || (), |(), k| self.push(&block.column(k)))
+                .into_iter()
+                .unzip();
+        let mut moved = Block::from_columns(self.system.unknowns(), &pushed);
+        self.factor.solve(&mut moved.values, count);
+        let image = |(): &mut (), k: usize| self.follow(&moved.column(k), &shares[k]);
+        let images = side_by_side(threads, count, || (), image);
+        *into = Block::from_columns(block.rows, &images);
+    }
+
+    fn threads(&self) -> usize {
+        worthwhile(self.system.threads, self.size())
     }
 }

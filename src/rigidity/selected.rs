@@ -3,7 +3,7 @@
 //! From the root of the tree downwards: the inverse over the rows of a supernode follows
 //! from its own columns of the factor and the inverse over its parent's rows, which its
 //! rows below are part of (Takahashi, Fagan and Chin 1973; by supernodes Lin et al. 2011).
-//! Costs about twice the arithmetic of the factorisation.
+//! Takes about twice as long as the factorisation, three times for strips.
 
 use crate::rigidity::factor::{Factor, Halt};
 use crate::rigidity::side::side_by_side;
@@ -34,18 +34,14 @@ impl Factor<'_> {
         let mut taken: Vec<(usize, T)> = Vec::with_capacity(self.symbolic.place.len());
         for &s in self.trunk.iter().rev() {
             Halt::if_stopped(watch)?;
-            let front = self.front(s, &trunk);
+            let front = self.front(s, [&trunk, &trunk]);
             taken.extend(self.blocks(s, front.as_ref(), take));
             trunk[s] = Some(front);
         }
         let branch = |fronts: &mut Fronts, k: usize| {
-            let parent = self.symbolic.supernodes[self.branches[k]].parent;
-            if let Some(parent) = parent {
-                fronts[parent].clone_from(&trunk[parent]);
-            }
             let mut taken = Vec::new();
             for s in self.range(k).rev() {
-                let front = self.front(s, fronts);
+                let front = self.front(s, [fronts, &trunk]);
                 taken.extend(self.blocks(s, front.as_ref(), take));
                 self.put(s, front, fronts);
             }
@@ -59,7 +55,8 @@ impl Factor<'_> {
         Ok(taken.into_iter().map(|(_, block)| block).collect())
     }
 
-    /// Keeps a front for its children, and lets go of its parent's after the last child.
+    /// Keeps a front for its children, and lets go of its parent's after the last of them,
+    /// which is the first: they are visited backwards.
     fn put(&self, s: usize, front: Mat<f64>, fronts: &mut Fronts) {
         let nodes = &self.symbolic.supernodes;
         if !nodes[s].children.is_empty() {
@@ -70,8 +67,9 @@ impl Factor<'_> {
         }
     }
 
-    /// The inverse over the rows of a supernode, its own first.
-    fn front(&self, s: usize, fronts: &Fronts) -> Mat<f64> {
+    /// The inverse over the rows of a supernode, its own first; its parent's is in one of the
+    /// two collections.
+    fn front(&self, s: usize, fronts: [&Fronts; 2]) -> Mat<f64> {
         let node = &self.symbolic.supernodes[s];
         let (width, below) = (node.width, node.below);
         let columns = self.columns(s).unpacked(width + below);
@@ -84,9 +82,12 @@ impl Factor<'_> {
         own.rb_mut().diagonal_mut().fill(1.0);
         solve_lower_triangular_in_place(top, own.rb_mut(), Par::Seq);
         solve_upper_triangular_in_place(top.transpose(), own.rb_mut(), Par::Seq);
-        let above = node
-            .parent
-            .and_then(|p| Some((&self.symbolic.supernodes[p], fronts[p].as_ref()?)));
+        let above = node.parent.and_then(|p| {
+            Some((
+                &self.symbolic.supernodes[p],
+                fronts.iter().find_map(|fronts| fronts[p].as_ref())?,
+            ))
+        });
         if let Some((parent, above)) = above {
             let at = rows_in(self.symbolic, node, parent);
             for (j, &column) in at.iter().enumerate() {

@@ -3,6 +3,14 @@
 use std::ops::Range;
 use std::sync::{Mutex, PoisonError};
 
+/// Below so many unknowns threads cost more than they save.
+const FEW: usize = 5000;
+
+/// How many of the threads are worth it for so many unknowns.
+pub(super) fn worthwhile(threads: usize, unknowns: usize) -> usize {
+    if unknowns < FEW { 1 } else { threads }
+}
+
 /// Runs `task` on each item, each thread with a state of its own; results in order.
 pub(super) fn dealt<I: Send, S, T: Send>(
     threads: usize,

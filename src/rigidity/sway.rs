@@ -18,10 +18,10 @@ const TOP: usize = 5;
 /// Rounds of tightening in all before it is content with a wide bracket, while the verdict
 /// is open.
 const MOST_ROUNDS: usize = 60;
-/// Rounds that a mere comparison is worth.
-const FEW_ROUNDS: usize = 6;
 /// The same times unknowns when the verdict stands and only the figures are wide.
 const MOST_WORK: usize = 500_000;
+/// Rounds that a mere comparison is worth.
+const FEW_ROUNDS: usize = 6;
 
 /// Rounds that figures are worth when the verdict stands.
 pub(super) fn rounds_for_figures(system: &System) -> usize {
@@ -41,11 +41,21 @@ pub struct Sway {
     pub limit_mm: f64,
     /// From the node to the nearest support, or the size of what floats, mm.
     pub span_mm: f64,
-    /// The same with every joint stiff, as far as it was computed.
-    pub stiff: Option<Bracket>,
     /// Largest amplification over limit at any node and direction that was looked at, as
     /// bounds, 1/mm.
     pub demand: Bracket,
+}
+
+impl Sway {
+    /// A sway there in mm, or in words where the model of small motions ends.
+    pub(super) fn in_words(&self, bracket: Bracket, play: f64) -> String {
+        let (low, high) = (bracket.lower * play, bracket.upper * play);
+        if low > self.span_mm / 10.0 {
+            format!("more than a tenth of its span of {:.0} mm", self.span_mm)
+        } else {
+            format!("{low:.2} to {high:.2} mm")
+        }
+    }
 }
 
 /// Spans of all knots: the distance to the nearest held pin, or the size of the whole.
@@ -99,7 +109,10 @@ pub(super) fn worst(
             Load::new(system, rigid, *knot, settled(axes.column(k).into()))
         })
     });
+    Halt::if_stopped(watch)?;
     let mut all = Bracketing::first(system, &factor, loads.collect());
+    // The rounds need the room.
+    drop(factor);
     if all.is_empty() {
         return Ok(None);
     }
@@ -114,15 +127,15 @@ pub(super) fn worst(
         node: system.model.knots[worst.load.knot].node,
         direction: worst.load.direction,
         bracket: worst.bracket(),
-        stiff: None,
         limit_mm: wall(worst.load.knot),
         span_mm: spans[worst.load.knot],
         demand: Bracket { lower: demand(|b| b.lower), upper: demand(|b| b.upper) },
     }))
 }
 
-/// Sway over play at the same node and direction if all bodies of each pin were one: what
-/// making joints stiff can do at best (notes §3.4).
+/// Sway over play at the same node and direction with all bodies of each pin joined by a
+/// lever of half the pin's length, to compare (notes §3.4). On a whole that floats the best
+/// fit counts the ends of these levers too. `None` for what is too large to compare.
 ///
 /// # Errors
 /// [`Halt`] if a factorisation fails or the watch stops it.
@@ -131,23 +144,26 @@ pub(super) fn with_stiff_joints(
     sway: &Sway,
     watch: &dyn Watch,
 ) -> Result<Option<Bracket>, Halt> {
+    Halt::if_stopped(watch)?;
     let model = system.model.clone().stiff();
     let stiff = System::new(&model, system.fixed, system.threads);
+    let rounds = rounds_for_figures(&stiff).min(FEW_ROUNDS);
     let rigid = if stiff.floats { stiff.rigid() } else { Vec::new() };
     let load = model
         .pin(sway.node)
         .and_then(|pin| Load::new(&stiff, &rigid, pin, sway.direction));
-    let factor = stiff.factor()?;
-    let mut found = Bracketing::first(&stiff, &factor, load.into_iter().collect());
-    let Some(found) = found.first_mut() else { return Ok(None) };
-    for _ in 0..rounds_for_figures(&stiff).min(FEW_ROUNDS) {
+    let Some(load) = load.filter(|_| rounds > 0) else { return Ok(None) };
+    Halt::if_stopped(watch)?;
+    let mut found = Bracketing::first(&stiff, &stiff.factor()?, vec![load]).remove(0);
+    for _ in 0..rounds {
         Halt::if_stopped(watch)?;
         if found.bracket().is_narrow() {
             break;
         }
         found.tighten()?;
     }
-    Ok(Some(found.bracket()).filter(|b| b.lower <= b.upper))
+    let proven = |b: &Bracket| b.upper.is_finite() && b.lower > 0.0 && b.lower <= b.upper;
+    Ok(Some(found.bracket()).filter(proven))
 }
 
 /// The same direction or its opposite, whichever has its largest entry positive.

@@ -1,6 +1,7 @@
 //! Rigid, grey, flexible or mechanism.
 
 use crate::joint::Joint;
+use crate::rigidity::amplify::Bracket;
 use crate::rigidity::factor::Halt;
 use crate::rigidity::finding::RigidityFinding;
 use crate::rigidity::mobility::{Mobility, mobility};
@@ -134,6 +135,8 @@ pub struct Verdict {
     pub(super) spectrum: Vec<f64>,
     pub(super) play_mm: f64,
     pub(super) sway: Option<Sway>,
+    /// Sway over play at the same node with every joint stiff, if it was computed.
+    pub(super) stiff: Option<Bracket>,
     /// The node that moves most if it is a mechanism.
     pub(super) loose: Option<usize>,
     pub(super) remedies: Vec<Remedy>,
@@ -174,6 +177,7 @@ pub fn judge(
         spectrum: Vec::new(),
         play_mm: question.play_mm.max(0.0),
         sway: None,
+        stiff: None,
         loose: None,
         remedies: Vec::new(),
         notes: notes(model),
@@ -235,8 +239,8 @@ impl Verdict {
         let more = sway::rounds_for_figures(system);
         let asked = (self.play_mm, question.limit, more);
         self.sway = sway::worst(system, &modes, asked, watch)?;
-        if let Some(sway) = &mut self.sway {
-            sway.stiff = match sway::with_stiff_joints(system, sway, watch) {
+        if let Some(sway) = &self.sway {
+            self.stiff = match sway::with_stiff_joints(system, sway, watch) {
                 // Nothing hangs on it.
                 Err(Halt::Failed) => None,
                 found => found?,
@@ -305,19 +309,20 @@ impl Verdict {
         self.sway.as_ref().map(|sway| 1.0 / sway.demand.upper)
     }
 
-    /// What stiff joints would do at best, in words.
+    /// What stiff joints would do to the sway, in words.
     pub fn stiff_in_words(&self) -> Option<String> {
-        let sway = self.sway.as_ref()?;
-        let stiff = Sway { bracket: sway.stiff?, ..sway.clone() };
-        let way = in_words(&stiff, self.play_mm);
-        let least = sway.bracket.lower / stiff.bracket.upper;
-        let most = sway.bracket.upper / stiff.bracket.lower;
-        let less = if least >= 1.0 {
-            format!(", {least:.1} to {most:.1} times less")
+        let (sway, stiff) = (self.sway.as_ref()?, self.stiff.filter(|_| !self.failed())?);
+        let way = sway.in_words(stiff, self.play_mm);
+        let times = [sway.bracket.lower / stiff.upper, sway.bracket.upper / stiff.lower];
+        let less = if times[0] >= 1.0 && times[1].is_finite() {
+            format!(", {:.1} to {:.1} times less", times[0], times[1])
         } else {
             String::new()
         };
-        Some(format!("if every joint were stiff: {way}{less}"))
+        Some(format!(
+            "with every joint stiff node {} would sway by {way}{less}",
+            sway.node
+        ))
     }
 
     /// What would help, as far as it was asked.
@@ -350,7 +355,7 @@ impl Verdict {
         let Some(sway) = &self.sway else { return all };
         let (play_mm, node, limit_mm) = (self.play_mm, sway.node, sway.limit_mm);
         let pass_mm = self.play_to_pass().unwrap_or(0.0);
-        let sway = in_words(sway, play_mm);
+        let sway = sway.in_words(sway.bracket, play_mm);
         type Fact = RigidityFinding;
         match self.outcome {
             Outcome::Flexible => {
@@ -379,22 +384,12 @@ impl Verdict {
                 "{name}: node {} sways by {} for {} mm of play; the limit is {:.2} mm; up to \
                  {:.3} mm of play would pass",
                 sway.node,
-                in_words(sway, self.play_mm),
+                sway.in_words(sway.bracket, self.play_mm),
                 self.play_mm,
                 sway.limit_mm,
                 self.play_to_pass().unwrap_or(0.0),
             ),
             (None, _) => format!("{name}: nothing can move"),
         }
-    }
-}
-
-/// A sway in mm, or in words where the model of small motions ends.
-fn in_words(sway: &Sway, play: f64) -> String {
-    let (low, high) = (sway.bracket.lower * play, sway.bracket.upper * play);
-    if low > sway.span_mm / 10.0 {
-        format!("more than a tenth of its span of {:.0} mm", sway.span_mm)
-    } else {
-        format!("{low:.2} to {high:.2} mm")
     }
 }
