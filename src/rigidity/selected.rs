@@ -34,14 +34,16 @@ impl Factor<'_> {
         let mut taken: Vec<(usize, T)> = Vec::with_capacity(self.symbolic.place.len());
         for &s in self.trunk.iter().rev() {
             Halt::if_stopped(watch)?;
-            let front = self.front(s, [&trunk, &trunk]);
+            let front = self.front(s, |parent| trunk[parent].as_ref());
             taken.extend(self.blocks(s, front.as_ref(), take));
             trunk[s] = Some(front);
         }
         let branch = |fronts: &mut Fronts, k: usize| {
             let mut taken = Vec::new();
             for s in self.range(k).rev() {
-                let front = self.front(s, [fronts, &trunk]);
+                let front = self.front(s, |parent| {
+                    fronts[parent].as_ref().or(trunk[parent].as_ref())
+                });
                 taken.extend(self.blocks(s, front.as_ref(), take));
                 self.put(s, front, fronts);
             }
@@ -67,9 +69,12 @@ impl Factor<'_> {
         }
     }
 
-    /// The inverse over the rows of a supernode, its own first; its parent's is in one of the
-    /// two collections.
-    fn front(&self, s: usize, fronts: [&Fronts; 2]) -> Mat<f64> {
+    /// The inverse over the rows of a supernode, its own first, from that of its parent.
+    fn front<'f>(
+        &self,
+        s: usize,
+        of: impl Fn(usize) -> Option<&'f Mat<f64>>,
+    ) -> Mat<f64> {
         let node = &self.symbolic.supernodes[s];
         let (width, below) = (node.width, node.below);
         let columns = self.columns(s).unpacked(width + below);
@@ -82,13 +87,8 @@ impl Factor<'_> {
         own.rb_mut().diagonal_mut().fill(1.0);
         solve_lower_triangular_in_place(top, own.rb_mut(), Par::Seq);
         solve_upper_triangular_in_place(top.transpose(), own.rb_mut(), Par::Seq);
-        let above = node.parent.and_then(|p| {
-            Some((
-                &self.symbolic.supernodes[p],
-                fronts.iter().find_map(|fronts| fronts[p].as_ref())?,
-            ))
-        });
-        if let Some((parent, above)) = above {
+        if let Some((parent, above)) = node.parent.and_then(|p| Some((p, of(p)?))) {
+            let parent = &self.symbolic.supernodes[parent];
             let at = rows_in(self.symbolic, node, parent);
             for (j, &column) in at.iter().enumerate() {
                 for (i, &row) in at.iter().enumerate() {
