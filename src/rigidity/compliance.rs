@@ -19,7 +19,7 @@ pub(super) fn compliances(
     rigid: &[Vec<f64>],
     watch: &dyn Watch,
 ) -> Result<Vec<(usize, Matrix3<f64>)>, Halt> {
-    let take = |_: usize, block: MatRef<'_, f64>| {
+    let take = |block: MatRef<'_, f64>| {
         (block.nrows() == 6).then(|| Matrix6::from_fn(|i, j| block[(i, j)]))
     };
     let blocks = factor.inverse_blocks(&take, watch)?;

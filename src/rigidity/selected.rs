@@ -3,7 +3,7 @@
 //! From the root of the tree downwards: the inverse over the rows of a supernode follows
 //! from its own columns of the factor and the inverse over its parent's rows, which its
 //! rows below are part of (Takahashi, Fagan and Chin 1973; by supernodes Lin et al. 2011).
-//! Takes about twice as long as the factorisation, three times for strips.
+//! Takes two to three times as long as the factorisation.
 
 use crate::rigidity::factor::{Factor, Halt};
 use crate::rigidity::side::side_by_side;
@@ -26,7 +26,7 @@ impl Factor<'_> {
     /// [`Halt::Stopped`].
     pub(super) fn inverse_blocks<T: Send>(
         &self,
-        take: &(dyn Fn(usize, MatRef<'_, f64>) -> T + Sync),
+        take: &(dyn Fn(MatRef<'_, f64>) -> T + Sync),
         watch: &dyn Watch,
     ) -> Result<Vec<T>, Halt> {
         let count = self.symbolic.supernodes.len();
@@ -114,14 +114,14 @@ impl Factor<'_> {
         &self,
         s: usize,
         front: MatRef<'_, f64>,
-        take: &(dyn Fn(usize, MatRef<'_, f64>) -> T + Sync),
+        take: &(dyn Fn(MatRef<'_, f64>) -> T + Sync),
     ) -> Vec<(usize, T)> {
         let node = &self.symbolic.supernodes[s];
         let first = self.symbolic.start[node.first];
         let block = |place: usize| {
             let (at, size) =
                 (self.symbolic.start[place] - first, self.symbolic.size(place));
-            (place, take(place, front.submatrix(at, at, size, size)))
+            (place, take(front.submatrix(at, at, size, size)))
         };
         (node.first..node.end).map(block).collect()
     }
