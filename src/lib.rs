@@ -52,6 +52,7 @@ pub mod report;
 pub mod rigidity;
 mod setting;
 pub mod sheets;
+mod sparse;
 pub mod structure;
 pub mod template;
 pub mod tolerance;

@@ -11,9 +11,9 @@
 //! their forces and solving again (IRLS) draws the bounds together.
 
 use crate::geometry::Vector3;
-use crate::rigidity::factor::{Factor, Singular};
 use crate::rigidity::stiffness::Stiffness;
 use crate::rigidity::system::System;
+use crate::sparse::{Factor, Singular};
 use crate::tolerance::{BRACKET_WIDTH, FORCE_BALANCE, LEAST_WEIGHT};
 
 /// A load on the unknowns: one unit on a node along a direction. On a whole that floats

@@ -1,9 +1,8 @@
 //! How far a unit load on a node moves it.
 
 use crate::geometry::Vector3;
-use crate::rigidity::block::Block;
-use crate::rigidity::factor::{Factor, Halt};
 use crate::rigidity::system::System;
+use crate::sparse::{Block, Factor, Halt};
 use crate::watch::Watch;
 use faer::MatRef;
 use nalgebra::{Matrix3, Matrix3x6, Matrix6};

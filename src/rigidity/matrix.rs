@@ -1,14 +1,11 @@
 //! The paper's matrix `A` and its smallest singular values, dense and sparse.
 
 use crate::geometry::Vector3;
-use crate::rigidity::block::Block;
-use crate::rigidity::factor::{Factor, Halt};
-use crate::rigidity::lanczos::{self, Operator};
 use crate::rigidity::model::Model;
 use crate::rigidity::motions::Twists;
 use crate::rigidity::paper::{Pairing, free_rank, velocity};
-use crate::rigidity::side::{side_by_side, worthwhile};
 use crate::rigidity::system::System;
+use crate::sparse::{Block, Factor, Halt, Operator, largest, map_range, worthwhile};
 use crate::watch::Watch;
 use faer::Mat;
 
@@ -109,7 +106,7 @@ impl Matrix<'_> {
         let factor = system.factor()?;
         let twists = system.twists();
         let inverse = PinInverse { system: &system, factor: &factor, twists };
-        let vectors = lanczos::largest(&inverse, wanted, watch)?;
+        let vectors = largest(&inverse, wanted, watch)?;
         let mut found: Vec<(f64, Vec<[f64; 6]>)> = (0..vectors.columns)
             .map(|k| {
                 let vector = vectors.column(k);
@@ -119,7 +116,7 @@ impl Matrix<'_> {
             })
             .collect();
         found.sort_by(|a, b| a.0.total_cmp(&b.0));
-        let top = lanczos::largest(&Square { matrix: self, threads }, 1, watch)?;
+        let top = largest(&Square { matrix: self, threads }, 1, watch)?;
         let top = self.apply(&self.twists(|i| top.values[i]));
         let largest = top.iter().map(|x| x * x).sum::<f64>().sqrt();
         let (sigma, twists) = found.into_iter().unzip();
@@ -144,7 +141,7 @@ impl Operator for Square<'_> {
             let twists = self.matrix.twists(|i| column[i]);
             self.matrix.transposed(&self.matrix.apply(&twists))
         };
-        let images = side_by_side(self.threads(), block.columns, || (), image);
+        let images = map_range(self.threads(), block.columns, || (), image);
         *into = Block::from_columns(block.rows, &images);
     }
 
@@ -210,13 +207,13 @@ impl Operator for PinInverse<'_> {
     fn apply(&self, block: &Block, into: &mut Block) {
         let (count, threads) = (block.columns, self.threads());
         let (pushed, shares): (Vec<_>, Vec<_>) =
-            side_by_side(threads, count, || (), |(), k| self.push(&block.column(k)))
+            map_range(threads, count, || (), |(), k| self.push(&block.column(k)))
                 .into_iter()
                 .unzip();
         let mut moved = Block::from_columns(self.system.unknowns(), &pushed);
         self.factor.solve(&mut moved.values, count);
         let image = |(): &mut (), k: usize| self.follow(&moved.column(k), &shares[k]);
-        let images = side_by_side(threads, count, || (), image);
+        let images = map_range(threads, count, || (), image);
         *into = Block::from_columns(block.rows, &images);
     }
 

@@ -4,12 +4,11 @@
 //! restriction to a subspace refined by residuals, never eigenvalues of `AᵀA`. Bodies that
 //! spin unseen about their only axis are counted.
 
-use crate::rigidity::block::{self, Block, orthonormal};
-use crate::rigidity::factor::{Factor, Halt};
-use crate::rigidity::lanczos::{self, Operator};
-use crate::rigidity::panel::ABREAST;
 use crate::rigidity::spectrum::{self, Inverse, Modes};
 use crate::rigidity::system::System;
+use crate::sparse::{
+    Block, Factor, Halt, Operator, RHS, orthonormalise, project_out, random_block,
+};
 use crate::tolerance::{NO_RESISTANCE, SUSPECT_RESISTANCE};
 use crate::watch::Watch;
 use faer::Mat;
@@ -69,13 +68,13 @@ fn null_space(
     let fresh = |block: &mut Block, found: &[Block]| {
         inverse.project(block);
         for _ in 0..2 {
-            block::clear(found, block);
+            project_out(found, block);
         }
-        orthonormal(block);
+        orthonormalise(block);
     };
-    for seed in 0..(size / ABREAST) as u64 + 1 {
+    for seed in 0..(size / RHS) as u64 + 1 {
         Halt::if_stopped(watch)?;
-        let mut block = lanczos::scattered(seed, size, ABREAST);
+        let mut block = random_block(seed, size, RHS);
         inverse.project(&mut block);
         for _ in 0..2 {
             inverse.multiply(&mut block);
@@ -88,7 +87,7 @@ fn null_space(
         let zero = unresisted(&inverse, &block)?;
         let count = zero.columns;
         found.push(zero);
-        if count < ABREAST {
+        if count < RHS {
             break;
         }
     }

@@ -10,32 +10,21 @@
 //! in words. Sources: "Freeform Shading and Lighting Systems from Planar Quads", section
 //! Stability; `docs/rigidity.md`.
 
-mod abreast;
 mod amplify;
-mod basis;
-mod block;
 mod compliance;
-mod factor;
 mod finding;
-mod front;
 mod json;
-mod lanczos;
 mod linkage;
 mod matrix;
 mod mobility;
 mod model;
 mod motions;
-mod panel;
 mod paper;
 mod picture;
 mod remedy;
-mod selected;
-mod side;
-mod solve;
 mod spectrum;
 mod stiffness;
 mod sway;
-mod symbolic;
 mod system;
 #[cfg(test)]
 mod tests;

@@ -8,10 +8,10 @@
 //! (notes §1.4, §3.1).
 
 use crate::geometry::{Point3, Vector3};
-use crate::rigidity::factor::Halt;
 use crate::rigidity::matrix::Matrix;
 use crate::rigidity::model::Model;
 use crate::rigidity::motions::Motions;
+use crate::sparse::Halt;
 use crate::tolerance::STANDS_STILL;
 use crate::watch::Watch;
 

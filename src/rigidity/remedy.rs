@@ -5,7 +5,6 @@
 //! are none, in the least resisted ones weighted by their compliance (notes §3.5).
 
 use crate::geometry::Vector3;
-use crate::rigidity::factor::Halt;
 use crate::rigidity::mobility::mobility;
 use crate::rigidity::model::{Body, Model};
 use crate::rigidity::motions::Twists;
@@ -13,6 +12,7 @@ use crate::rigidity::spectrum::least;
 use crate::rigidity::sway::{self, Sway, node_velocity};
 use crate::rigidity::system::System;
 use crate::rigidity::verdict::{Question, Stopped};
+use crate::sparse::Halt;
 use crate::watch::Watch;
 use std::collections::BTreeSet;
 

@@ -5,12 +5,12 @@
 //! from residuals `(I - QQᵀ) y`, never from `yᵀ K y`, which loses half the digits.
 
 use crate::geometry::Vector3;
-use crate::rigidity::block::{self, Block};
-use crate::rigidity::factor::{Factor, Halt};
-use crate::rigidity::lanczos::{self, Operator};
 use crate::rigidity::model::Knot;
-use crate::rigidity::panel::ABREAST;
 use crate::rigidity::system::System;
+use crate::sparse::{
+    Block, Factor, Halt, Operator, RHS, largest, orthonormalise, project_out,
+    random_block,
+};
 use crate::watch::Watch;
 use faer::Mat;
 
@@ -64,7 +64,7 @@ pub(super) fn by_inverse(
     watch: &dyn Watch,
 ) -> Result<Modes, Halt> {
     let inverse = Inverse::new(system, factor);
-    let vectors = lanczos::largest(&inverse, wanted, watch)?;
+    let vectors = largest(&inverse, wanted, watch)?;
     let motions = (0..vectors.columns).map(|k| inverse.motion(&vectors, k));
     Ok(measured(system, motions.collect()))
 }
@@ -131,7 +131,7 @@ impl<'a> Inverse<'a> {
                 row.fill(0.0);
             }
         }
-        block::clear(&self.rigid, block);
+        project_out(&self.rigid, block);
     }
 }
 
@@ -141,7 +141,7 @@ fn scaled_rigid(system: &System, roots: &[f64]) -> Block {
     for (row, root) in rigid.rows_mut().zip(roots) {
         row.iter_mut().for_each(|x| *x *= root);
     }
-    block::orthonormal(&mut rigid);
+    orthonormalise(&mut rigid);
     rigid
 }
 
@@ -155,7 +155,7 @@ impl Operator for Inverse<'_> {
         self.multiply(into);
     }
 
-    fn barred(&self) -> &[Block] {
+    fn deflated(&self) -> &[Block] {
         &self.rigid
     }
 
@@ -168,11 +168,11 @@ impl Operator for Inverse<'_> {
     }
 }
 
-/// How much of the first vectors is scattered, beside what is smooth.
+/// How much of the first vectors is random_block, beside what is smooth.
 const SCATTERED: f64 = 0.1;
 
 /// Velocities to begin with: quadratic in the place, as the least resisted motions nearly
-/// are, and a scattered part so that none is missed.
+/// are, and a random_block part so that none is missed.
 fn smooth(system: &System, roots: &[f64]) -> Block {
     let model = system.model;
     let count = model.knots.len().max(1) as f64;
@@ -181,10 +181,10 @@ fn smooth(system: &System, roots: &[f64]) -> Block {
     let radius = (model.knots.iter().map(off).sum::<f64>() / count).sqrt();
     let scale = if radius > 0.0 { 1.0 / radius } else { 0.0 };
     // Ten products of pairs of 1, x, y and z in three directions.
-    let shares = lanczos::scattered(2, 30, ABREAST).values;
-    let (shares, _) = shares.as_chunks::<ABREAST>();
-    let mut block = lanczos::scattered(1, system.unknowns(), ABREAST);
-    let (rows, _) = block.values.as_chunks_mut::<ABREAST>();
+    let shares = random_block(2, 30, RHS).values;
+    let (shares, _) = shares.as_chunks::<RHS>();
+    let mut block = random_block(1, system.unknowns(), RHS);
+    let (rows, _) = block.values.as_chunks_mut::<RHS>();
     for (row, root) in rows.iter_mut().zip(roots) {
         row.iter_mut().for_each(|x| *x *= SCATTERED * root);
     }

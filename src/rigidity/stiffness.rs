@@ -1,9 +1,8 @@
 //! What the factor is made from: the resistance of each body, sleeves with weights.
 
-use crate::rigidity::factor::{Entries, Factor, Singular};
 use crate::rigidity::motions::Motions;
-use crate::rigidity::side::in_parts;
 use crate::rigidity::system::{Job, Span, System};
+use crate::sparse::{Entries, Factor, Singular, map_chunks};
 use crate::tolerance::SHIFT;
 use std::ops::Range;
 
@@ -29,7 +28,7 @@ impl<'a> Stiffness<'a> {
             };
             let bodies = system.motions.len();
             let make = |part: Range<usize>| part.map(of).collect();
-            (in_parts(bodies, system.threads, make), roots)
+            (map_chunks(bodies, system.threads, make), roots)
         });
         let mut diagonal = system.counts();
         if system.floats {
@@ -72,7 +71,7 @@ impl<'a> Stiffness<'a> {
             }
             all
         };
-        in_parts(system.motions.len(), system.threads, some)
+        map_chunks(system.motions.len(), system.threads, some)
     }
 
     /// Bodies that keep their motion: its six unknowns, and the weights on their knots.

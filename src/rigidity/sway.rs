@@ -3,11 +3,11 @@
 use crate::geometry::{Point3, Vector3};
 use crate::rigidity::amplify::{Bracket, Bracketing, Load};
 use crate::rigidity::compliance::compliances;
-use crate::rigidity::factor::Halt;
 use crate::rigidity::model::Model;
 use crate::rigidity::spectrum::Modes;
 use crate::rigidity::system::System;
 use crate::rigidity::verdict::SwayLimit;
+use crate::sparse::Halt;
 use crate::tolerance::SAME_SWAY;
 use crate::watch::Watch;
 use nalgebra::Matrix3;

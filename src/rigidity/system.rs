@@ -7,12 +7,10 @@
 //! of its own; eliminating the knots first is then the *body form*.
 
 use crate::geometry::Point3;
-use crate::rigidity::factor::{Factor, Singular};
 use crate::rigidity::model::Model;
 use crate::rigidity::motions::{Motions, Twists};
-use crate::rigidity::side::{in_parts, side_by_side};
 use crate::rigidity::stiffness::Stiffness;
-use crate::rigidity::symbolic::Symbolic;
+use crate::sparse::{Factor, Singular, Symbolic, map_chunks, map_range};
 use std::ops::Range;
 
 /// Bodies with more rows than this keep their motion as unknowns.
@@ -213,7 +211,7 @@ impl<'a> System<'a> {
             }
             sums
         };
-        let parts = side_by_side(self.threads, count.div_ceil(TOGETHER), Vec::new, some);
+        let parts = map_range(self.threads, count.div_ceil(TOGETHER), Vec::new, some);
         (0..all.len()).map(|k| parts.iter().map(|sums| sums[k]).sum()).collect()
     }
 
@@ -300,7 +298,7 @@ fn motions(model: &Model, fixed: Option<usize>, threads: usize) -> Vec<Motions> 
         };
         part.map(of).collect()
     };
-    in_parts(model.bodies.len(), threads, make)
+    map_chunks(model.bodies.len(), threads, make)
 }
 
 /// Which groups meet in a body.

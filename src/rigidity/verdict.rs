@@ -2,7 +2,6 @@
 
 use crate::joint::Joint;
 use crate::rigidity::amplify::Bracket;
-use crate::rigidity::factor::Halt;
 use crate::rigidity::finding::RigidityFinding;
 use crate::rigidity::mobility::{Mobility, mobility};
 use crate::rigidity::model::{Body, Model};
@@ -11,6 +10,7 @@ use crate::rigidity::remedy::{self, Remedy};
 use crate::rigidity::spectrum::least;
 use crate::rigidity::sway::{self, Sway};
 use crate::rigidity::system::System;
+use crate::sparse::Halt;
 use crate::structure::{Structure, write_json};
 use crate::tolerance::FORCE_BALANCE;
 use crate::watch::Watch;

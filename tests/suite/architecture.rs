@@ -10,6 +10,7 @@ const ORDER: &[&str] = &[
     "watch",
     "diagnostic",
     "geometry",
+    "sparse",
     "lettering",
     "joint",
     "structure",

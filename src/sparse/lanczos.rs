@@ -3,16 +3,16 @@
 //! Solving for several right-hand sides at once costs little more than for one, because
 //! the factor is read from memory once (Grimes, Lewis and Simon 1994).
 
-use crate::rigidity::basis::Basis;
-use crate::rigidity::block::Block;
-use crate::rigidity::factor::Halt;
-use crate::rigidity::panel::ABREAST;
+use crate::sparse::basis::Basis;
+use crate::sparse::block::Block;
+use crate::sparse::factor::Halt;
+use crate::sparse::panel::RHS;
 use crate::tolerance::MODE_RESIDUAL;
 use crate::watch::Watch;
 use faer::{Mat, Side};
 
 /// A symmetric operator on blocks of vectors.
-pub(super) trait Operator {
+pub(crate) trait Operator {
     /// Length of the vectors.
     fn size(&self) -> usize;
 
@@ -20,7 +20,7 @@ pub(super) trait Operator {
     fn apply(&self, block: &Block, into: &mut Block);
 
     /// Orthonormal vectors that the wanted ones are orthogonal to.
-    fn barred(&self) -> &[Block] {
+    fn deflated(&self) -> &[Block] {
         &[]
     }
 
@@ -31,7 +31,7 @@ pub(super) trait Operator {
 
     /// What to begin with.
     fn start(&self) -> Block {
-        scattered(1, self.size(), ABREAST)
+        random_block(1, self.size(), RHS)
     }
 }
 
@@ -39,7 +39,7 @@ pub(super) trait Operator {
 const MOST_STEPS: usize = 20;
 
 /// Numbers from -1 to 1 that are the same everywhere (SplitMix64).
-pub(super) fn scattered(seed: u64, rows: usize, columns: usize) -> Block {
+pub(crate) fn random_block(seed: u64, rows: usize, columns: usize) -> Block {
     let mut state = seed;
     let mut block = Block::zeros(rows, columns);
     block.values.fill_with(|| {
@@ -57,16 +57,16 @@ pub(super) fn scattered(seed: u64, rows: usize, columns: usize) -> Block {
 ///
 /// # Errors
 /// [`Halt::Stopped`].
-pub(super) fn largest(
+pub(crate) fn largest(
     operator: &dyn Operator,
     wanted: usize,
     watch: &dyn Watch,
 ) -> Result<Block, Halt> {
     let size = operator.size();
-    let barred = operator.barred().to_vec();
-    let mut basis = Basis::new(barred, size, operator.threads());
+    let deflated = operator.deflated().to_vec();
+    let mut basis = Basis::new(deflated, size, operator.threads());
     let mut next = operator.start();
-    let mut cleared = basis.clear(&mut next);
+    let mut cleared = basis.project_out(&mut next);
     let mut projected: Mat<f64> = Mat::zeros(0, 0);
     let mut ends = None;
     for _ in 0..MOST_STEPS {
@@ -76,7 +76,7 @@ pub(super) fn largest(
             break;
         };
         operator.apply(last, &mut next);
-        cleared = basis.clear(&mut next);
+        cleared = basis.project_out(&mut next);
         projected = bordered(&projected, &cleared.shares);
         ends = ritz(&projected);
         if ends.as_ref().is_some_and(|ends| ends.converged(&cleared.rest, wanted)) {

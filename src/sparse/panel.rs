@@ -7,10 +7,10 @@
 use pulp::{Arch, Simd, WithSimd};
 
 /// Right-hand sides that are solved for together.
-pub(super) const ABREAST: usize = 8;
+pub(crate) const RHS: usize = 8;
 
 /// One row of all right-hand sides.
-pub(super) type Row = [f64; ABREAST];
+pub(crate) type Row = [f64; RHS];
 
 /// Columns that are stored abreast; those that are left over stand alone.
 const PANEL: usize = 6;
@@ -19,20 +19,20 @@ const PAIR: usize = 2;
 
 /// The packed columns of a supernode: panel after panel, each from its diagonal on.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Columns<'a> {
-    pub(super) values: &'a [f64],
-    pub(super) width: usize,
+pub(crate) struct Columns<'a> {
+    pub(crate) values: &'a [f64],
+    pub(crate) width: usize,
 }
 
 /// How many numbers the first `count` of columns of this height take when packed.
-pub(super) fn packed(count: usize, height: usize) -> usize {
+pub(crate) fn packed(count: usize, height: usize) -> usize {
     let full = count - count % PANEL;
     let alone = (full..count).map(|column| height - column).sum::<usize>();
     full * height - full * full.saturating_sub(PANEL) / 2 + alone
 }
 
 /// Packs `width` columns that stand one after another; what is above the diagonals is lost.
-pub(super) fn pack(columns: &[f64], width: usize, into: &mut Vec<f64>) {
+pub(crate) fn pack(columns: &[f64], width: usize, into: &mut Vec<f64>) {
     let height = columns.len() / width.max(1);
     let even = width - width % PANEL;
     for k in (0..even).step_by(PANEL) {
@@ -48,7 +48,7 @@ pub(super) fn pack(columns: &[f64], width: usize, into: &mut Vec<f64>) {
 impl<'a> Columns<'a> {
     /// The columns one after another as they were before they were packed, `height` numbers
     /// each, zeros above the diagonal.
-    pub(super) fn unpacked(self, height: usize) -> Vec<f64> {
+    pub(crate) fn unpacked(self, height: usize) -> Vec<f64> {
         let mut columns = vec![0.0; self.width * height];
         let even = self.width - self.width % PANEL;
         for k in (0..even).step_by(PANEL) {
@@ -65,13 +65,13 @@ impl<'a> Columns<'a> {
     }
 
     /// Solves for the first `width` rows, and takes what they cause from the rest.
-    pub(super) fn forward(self, rows: &mut [Row]) {
+    pub(crate) fn forward(self, rows: &mut [Row]) {
         Arch::new().dispatch(Sweep { columns: self, rows, down: true });
     }
 
     /// Takes what the rows after the first `width` cause from those, and solves for them
     /// with the transpose.
-    pub(super) fn backward(self, rows: &mut [Row]) {
+    pub(crate) fn backward(self, rows: &mut [Row]) {
         Arch::new().dispatch(Sweep { columns: self, rows, down: false });
     }
 
@@ -96,26 +96,26 @@ impl WithSimd for Sweep<'_> {
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) {
         let columns = self.columns;
-        let (height, per_row) = (self.rows.len(), ABREAST / S::F64_LANES);
+        let (height, per_row) = (self.rows.len(), RHS / S::F64_LANES);
         let (rows, _) = S::as_mut_simd_f64s(self.rows.as_flattened_mut());
         let even = columns.width - columns.width % PANEL;
         if self.down {
             for k in (0..even).step_by(PANEL) {
                 let panel = columns.panel::<PANEL>(k, height);
-                down::<S, _>(simd, panel, &mut rows[k * per_row..]);
+                forward::<S, _>(simd, panel, &mut rows[k * per_row..]);
             }
             for k in even..columns.width {
                 let panel = columns.panel::<1>(k, height);
-                down::<S, _>(simd, panel, &mut rows[k * per_row..]);
+                forward::<S, _>(simd, panel, &mut rows[k * per_row..]);
             }
         } else {
             for k in (even..columns.width).rev() {
                 let panel = columns.panel::<1>(k, height);
-                up::<S, _>(simd, panel, &mut rows[k * per_row..]);
+                backward::<S, _>(simd, panel, &mut rows[k * per_row..]);
             }
             for k in (0..even).step_by(PANEL).rev() {
                 let panel = columns.panel::<PANEL>(k, height);
-                up::<S, _>(simd, panel, &mut rows[k * per_row..]);
+                backward::<S, _>(simd, panel, &mut rows[k * per_row..]);
             }
         }
     }
@@ -123,13 +123,13 @@ impl WithSimd for Sweep<'_> {
 
 /// `sum - share · of`.
 #[inline(always)]
-fn less<S: Simd>(simd: S, sum: S::f64s, share: f64, of: S::f64s) -> S::f64s {
+fn subtract_product<S: Simd>(simd: S, sum: S::f64s, share: f64, of: S::f64s) -> S::f64s {
     simd.mul_add_e_f64s(simd.splat_f64s(-share), of, sum)
 }
 
 #[inline(always)]
-fn down<S: Simd, const P: usize>(simd: S, panel: &[[f64; P]], rows: &mut [S::f64s]) {
-    let per_row = ABREAST / S::F64_LANES;
+fn forward<S: Simd, const P: usize>(simd: S, panel: &[[f64; P]], rows: &mut [S::f64s]) {
+    let per_row = RHS / S::F64_LANES;
     let (own, rest) = rows.split_at_mut(P * per_row);
     let (top, below) = panel.split_at(P);
     let mut v = 0;
@@ -141,8 +141,8 @@ fn down<S: Simd, const P: usize>(simd: S, panel: &[[f64; P]], rows: &mut [S::f64
             let inverse = simd.splat_f64s(1.0 / top[j][j]);
             let (mut first, mut second) = (own[j * per_row + v], own[j * per_row + w]);
             for i in 0..j {
-                first = less(simd, first, top[j][i], solved[0][i]);
-                second = less(simd, second, top[j][i], solved[1][i]);
+                first = subtract_product(simd, first, top[j][i], solved[0][i]);
+                second = subtract_product(simd, second, top[j][i], solved[1][i]);
             }
             solved[0][j] = simd.mul_f64s(first, inverse);
             solved[1][j] = simd.mul_f64s(second, inverse);
@@ -152,8 +152,8 @@ fn down<S: Simd, const P: usize>(simd: S, panel: &[[f64; P]], rows: &mut [S::f64
         for (row, shares) in rest.chunks_exact_mut(per_row).zip(below) {
             let (mut first, mut second) = (row[v], row[w]);
             for j in 0..P {
-                first = less(simd, first, shares[j], solved[0][j]);
-                second = less(simd, second, shares[j], solved[1][j]);
+                first = subtract_product(simd, first, shares[j], solved[0][j]);
+                second = subtract_product(simd, second, shares[j], solved[1][j]);
             }
             row[v] = first;
             row[w] = second;
@@ -163,8 +163,8 @@ fn down<S: Simd, const P: usize>(simd: S, panel: &[[f64; P]], rows: &mut [S::f64
 }
 
 #[inline(always)]
-fn up<S: Simd, const P: usize>(simd: S, panel: &[[f64; P]], rows: &mut [S::f64s]) {
-    let per_row = ABREAST / S::F64_LANES;
+fn backward<S: Simd, const P: usize>(simd: S, panel: &[[f64; P]], rows: &mut [S::f64s]) {
+    let per_row = RHS / S::F64_LANES;
     let (own, rest) = rows.split_at_mut(P * per_row);
     let (top, below) = panel.split_at(P);
     let mut v = 0;
@@ -176,15 +176,15 @@ fn up<S: Simd, const P: usize>(simd: S, panel: &[[f64; P]], rows: &mut [S::f64s]
         }
         for (row, shares) in rest.chunks_exact(per_row).zip(below) {
             for j in 0..P {
-                sums[0][j] = less(simd, sums[0][j], shares[j], row[v]);
-                sums[1][j] = less(simd, sums[1][j], shares[j], row[w]);
+                sums[0][j] = subtract_product(simd, sums[0][j], shares[j], row[v]);
+                sums[1][j] = subtract_product(simd, sums[1][j], shares[j], row[w]);
             }
         }
         for j in (0..P).rev() {
             let inverse = simd.splat_f64s(1.0 / top[j][j]);
             for i in j + 1..P {
-                sums[0][j] = less(simd, sums[0][j], top[i][j], sums[0][i]);
-                sums[1][j] = less(simd, sums[1][j], top[i][j], sums[1][i]);
+                sums[0][j] = subtract_product(simd, sums[0][j], top[i][j], sums[0][i]);
+                sums[1][j] = subtract_product(simd, sums[1][j], top[i][j], sums[1][i]);
             }
             sums[0][j] = simd.mul_f64s(sums[0][j], inverse);
             sums[1][j] = simd.mul_f64s(sums[1][j], inverse);
@@ -239,7 +239,7 @@ mod tests {
             // L times what was solved for, and what is left below, is what was given.
             for row in 0..height {
                 let product = times(&down, row, false);
-                for k in 0..ABREAST {
+                for k in 0..RHS {
                     let rest = if row < width { 0.0 } else { down[row][k] };
                     assert!((product[k] + rest - known[row][k]).abs() < 1e-12);
                 }

@@ -4,68 +4,65 @@
 //! eliminated together; the graph is then six times smaller than the matrix. Ordering by
 //! approximate minimum degree (`feral-amd`), then supernodes with relaxed merging.
 
-use crate::rigidity::panel::packed;
-use feral_amd::{CscPattern, amd_order};
+use crate::sparse::etree::{elimination_tree, places};
+use crate::sparse::ordering::elimination_order;
+use crate::sparse::panel::packed;
 use std::ops::Range;
 
 /// Consecutive groups that are eliminated as one dense block.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) struct Supernode {
+pub(crate) struct Supernode {
     /// Its first group, by place in the order.
-    pub(super) first: usize,
+    pub(crate) first: usize,
     /// One after its last group.
-    pub(super) end: usize,
+    pub(crate) end: usize,
     /// How many unknowns it eliminates.
-    pub(super) width: usize,
+    pub(crate) width: usize,
     /// Groups after `end` that it touches, ascending.
-    pub(super) rows: Vec<u32>,
+    pub(crate) rows: Vec<u32>,
     /// How many unknowns these have.
-    pub(super) below: usize,
+    pub(crate) below: usize,
     /// The supernode that takes in its update.
-    pub(super) parent: Option<usize>,
+    pub(crate) parent: Option<usize>,
     /// Supernodes whose updates it takes in.
-    pub(super) children: Vec<usize>,
+    pub(crate) children: Vec<usize>,
     /// The first supernode of its subtree; a subtree is a range.
-    pub(super) leaf: usize,
-    /// Whether its depth in the tree is odd.
-    pub(super) odd: bool,
+    pub(crate) first_descendant: usize,
+    /// Whether its depth in the tree is odd_depth.
+    pub(crate) odd_depth: bool,
 }
 
 impl Supernode {
     /// How many numbers its columns take in the factor.
-    pub(super) fn room(&self) -> usize {
+    pub(crate) fn stored(&self) -> usize {
         packed(self.width, self.width + self.below)
     }
 
-    /// Work of its elimination, about.
-    pub(super) fn work(&self) -> f64 {
+    /// Workspace of its elimination, about.
+    pub(crate) fn work(&self) -> f64 {
         self.width as f64 * ((self.width + self.below) as f64).powi(2)
     }
 }
 
 /// Order and supernodes of a matrix of groups.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) struct Symbolic {
+pub(crate) struct Symbolic {
     /// For each group its place in the order.
-    pub(super) place: Vec<usize>,
+    pub(crate) place: Vec<usize>,
     /// By place, the first unknown of each group; one more entry at the end.
-    pub(super) start: Vec<usize>,
+    pub(crate) start: Vec<usize>,
     /// In an order in which children come first.
-    pub(super) supernodes: Vec<Supernode>,
+    pub(crate) supernodes: Vec<Supernode>,
     /// By place of a group, its supernode.
-    pub(super) owner: Vec<u32>,
+    pub(crate) owner: Vec<u32>,
 }
 
 impl Symbolic {
     /// Analyses groups of these sizes that touch each other as `neighbours` lists (both
     /// ways, without the group itself, each once).
-    pub(super) fn new(sizes: &[usize], neighbours: &[Vec<u32>]) -> Self {
-        let order = minimum_degree(neighbours);
-        let order = postordered(order, neighbours);
-        let mut place = vec![0; order.len()];
-        for (k, &group) in order.iter().enumerate() {
-            place[group] = k;
-        }
+    pub(crate) fn new(sizes: &[usize], neighbours: &[Vec<u32>]) -> Self {
+        let order = elimination_order(neighbours);
+        let place = places(&order);
         let mut start = vec![0];
         for &group in &order {
             start.push(start[start.len() - 1] + sizes[group]);
@@ -79,37 +76,38 @@ impl Symbolic {
         for s in 0..supernodes.len() {
             supernodes[s].parent =
                 supernodes[s].rows.first().map(|&row| owner[row as usize] as usize);
-            let leaf = supernodes[s].leaf;
+            let first_descendant = supernodes[s].first_descendant;
             if let Some(parent) = supernodes[s].parent {
                 supernodes[parent].children.push(s);
-                supernodes[parent].leaf = supernodes[parent].leaf.min(leaf);
+                supernodes[parent].first_descendant =
+                    supernodes[parent].first_descendant.min(first_descendant);
             }
         }
         for s in (0..supernodes.len()).rev() {
-            let above = supernodes[s].parent.map(|parent| supernodes[parent].odd);
-            supernodes[s].odd = above == Some(false);
+            let above = supernodes[s].parent.map(|parent| supernodes[parent].odd_depth);
+            supernodes[s].odd_depth = above == Some(false);
         }
         Self { place, start, supernodes, owner }
     }
 
     /// How many unknowns there are.
-    pub(super) fn unknowns(&self) -> usize {
+    pub(crate) fn unknowns(&self) -> usize {
         self.start[self.start.len() - 1]
     }
 
     /// How many unknowns the group at a place has.
-    pub(super) fn size(&self, place: usize) -> usize {
+    pub(crate) fn size(&self, place: usize) -> usize {
         self.start[place + 1] - self.start[place]
     }
 
     /// Unknowns of the group at a place.
-    pub(super) fn rows(&self, place: usize) -> Range<usize> {
+    pub(crate) fn rows(&self, place: usize) -> Range<usize> {
         self.start[place]..self.start[place + 1]
     }
 
     /// Supernodes whose subtrees can be worked on side by side, the largest work first.
     /// Depends on the matrix only, so that results do not depend on the machine.
-    pub(super) fn branches(&self) -> Vec<usize> {
+    pub(crate) fn subtrees(&self) -> Vec<usize> {
         let mut work: Vec<f64> = self.supernodes.iter().map(Supernode::work).collect();
         for s in 0..work.len() {
             if let Some(parent) = self.supernodes[s].parent {
@@ -117,92 +115,18 @@ impl Symbolic {
             }
         }
         let roots = (0..work.len()).filter(|&s| self.supernodes[s].parent.is_none());
-        let mut branches: Vec<usize> = roots.collect();
-        let total: f64 = branches.iter().map(|&s| work[s]).sum();
+        let mut subtrees: Vec<usize> = roots.collect();
+        let total: f64 = subtrees.iter().map(|&s| work[s]).sum();
         loop {
-            branches.sort_by(|&a, &b| work[b].total_cmp(&work[a]).then(a.cmp(&b)));
-            let split = branches.iter().position(|&s| {
+            subtrees.sort_by(|&a, &b| work[b].total_cmp(&work[a]).then(a.cmp(&b)));
+            let split = subtrees.iter().position(|&s| {
                 work[s] > total / 4.0 && !self.supernodes[s].children.is_empty()
             });
-            let Some(split) = split else { return branches };
-            let s = branches.swap_remove(split);
-            branches.extend(&self.supernodes[s].children);
+            let Some(split) = split else { return subtrees };
+            let s = subtrees.swap_remove(split);
+            subtrees.extend(&self.supernodes[s].children);
         }
     }
-}
-
-/// Groups in an order of little fill.
-fn minimum_degree(neighbours: &[Vec<u32>]) -> Vec<usize> {
-    let mut starts = vec![0_i32];
-    let mut rows: Vec<i32> = Vec::with_capacity(neighbours.iter().map(Vec::len).sum());
-    for (group, list) in neighbours.iter().enumerate() {
-        let from = rows.len();
-        rows.extend(list.iter().map(|&other| other as i32));
-        rows.push(group as i32);
-        rows[from..].sort_unstable();
-        starts.push(rows.len() as i32);
-    }
-    let pattern = CscPattern::new(neighbours.len(), &starts, &rows);
-    let order = pattern.and_then(|pattern| amd_order(&pattern).ok());
-    let order = order.map(|order| order.into_iter().map(|group| group as usize));
-    // Any order is correct; without the library's answer it is only slow.
-    order.map_or_else(|| (0..neighbours.len()).collect(), Iterator::collect)
-}
-
-/// Parents in the elimination tree of an order (Liu 1986), by place.
-fn tree(order: &[usize], place: &[usize], neighbours: &[Vec<u32>]) -> Vec<Option<usize>> {
-    let mut parent: Vec<Option<usize>> = vec![None; order.len()];
-    let mut ancestor: Vec<Option<usize>> = vec![None; order.len()];
-    for (k, &group) in order.iter().enumerate() {
-        for &other in &neighbours[group] {
-            let mut at = place[other as usize];
-            while at < k {
-                let next = ancestor[at].replace(k);
-                match next {
-                    None => {
-                        parent[at] = Some(k);
-                        break;
-                    }
-                    Some(next) if next == k => break,
-                    Some(next) => at = next,
-                }
-            }
-        }
-    }
-    parent
-}
-
-/// The order renumbered so that each subtree is a range, its largest branch last.
-fn postordered(order: Vec<usize>, neighbours: &[Vec<u32>]) -> Vec<usize> {
-    let count = order.len();
-    let mut place = vec![0; count];
-    for (k, &group) in order.iter().enumerate() {
-        place[group] = k;
-    }
-    let parent = tree(&order, &place, neighbours);
-    let mut size = vec![1_usize; count];
-    let mut children = vec![Vec::new(); count];
-    let mut roots = Vec::new();
-    for k in 0..count {
-        match parent[k] {
-            Some(parent) => {
-                size[parent] += size[k];
-                children[parent].push(k);
-            }
-            None => roots.push(k),
-        }
-    }
-    // Walk from the roots, last first, and read the walk backwards.
-    let mut walk = Vec::with_capacity(count);
-    let mut stack = roots;
-    while let Some(k) = stack.pop() {
-        walk.push(order[k]);
-        let mut below = std::mem::take(&mut children[k]);
-        below.sort_by_key(|&child| (size[child], child));
-        stack.extend(below);
-    }
-    walk.reverse();
-    walk
 }
 
 /// Parents, and for each place the later places its column reaches, ascending.
@@ -211,7 +135,7 @@ fn columns(
     place: &[usize],
     neighbours: &[Vec<u32>],
 ) -> (Vec<Option<usize>>, Vec<Vec<u32>>) {
-    let parents = tree(order, place, neighbours);
+    let parents = elimination_tree(order, neighbours);
     let mut seen = vec![u32::MAX; order.len()];
     let mut columns: Vec<Vec<u32>> = Vec::with_capacity(order.len());
     let mut children = vec![Vec::new(); order.len()];
@@ -268,14 +192,14 @@ fn supernodes(
             below,
             parent,
             children,
-            leaf: 0,
-            odd: false,
+            first_descendant: 0,
+            odd_depth: false,
         };
         merged.push((node, 0));
     }
     merge_last(&mut merged);
     let nodes = merged.into_iter().enumerate();
-    nodes.map(|(s, (node, _))| Supernode { leaf: s, ..node }).collect()
+    nodes.map(|(s, (node, _))| Supernode { first_descendant: s, ..node }).collect()
 }
 
 /// Merges the last two supernodes as long as that is worth it.
@@ -341,7 +265,7 @@ mod tests {
         for (s, node) in symbolic.supernodes.iter().enumerate() {
             let Some(parent) = node.parent else { continue };
             let above = &symbolic.supernodes[parent];
-            assert!(parent > s && above.leaf <= node.leaf);
+            assert!(parent > s && above.first_descendant <= node.first_descendant);
             assert!(node.rows.iter().all(|row| {
                 (above.first..above.end).contains(&(*row as usize))
                     || above.rows.contains(row)

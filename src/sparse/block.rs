@@ -12,11 +12,11 @@ const ROWS: usize = 512;
 
 /// Vectors as columns, stored row by row.
 #[derive(Debug, PartialEq)]
-pub(super) struct Block {
-    pub(super) rows: usize,
-    pub(super) columns: usize,
+pub(crate) struct Block {
+    pub(crate) rows: usize,
+    pub(crate) columns: usize,
     /// `rows * columns` numbers.
-    pub(super) values: Vec<f64>,
+    pub(crate) values: Vec<f64>,
 }
 
 impl Clone for Block {
@@ -32,12 +32,12 @@ impl Clone for Block {
 }
 
 impl Block {
-    pub(super) fn zeros(rows: usize, columns: usize) -> Self {
+    pub(crate) fn zeros(rows: usize, columns: usize) -> Self {
         Self { rows, columns, values: vec![0.0; rows * columns] }
     }
 
     /// Columns put side by side.
-    pub(super) fn from_columns(rows: usize, columns: &[Vec<f64>]) -> Self {
+    pub(crate) fn from_columns(rows: usize, columns: &[Vec<f64>]) -> Self {
         let mut block = Self::zeros(rows, columns.len());
         for (row, i) in block.rows_mut().zip(0..) {
             row.iter_mut().zip(columns).for_each(|(x, column): (_, &Vec<f64>)| {
@@ -48,24 +48,24 @@ impl Block {
     }
 
     /// One row after another.
-    pub(super) fn rows_mut(&mut self) -> std::slice::ChunksExactMut<'_, f64> {
+    pub(crate) fn rows_mut(&mut self) -> std::slice::ChunksExactMut<'_, f64> {
         self.values.chunks_exact_mut(self.columns.max(1))
     }
 
-    pub(super) fn column(&self, k: usize) -> Vec<f64> {
+    pub(crate) fn column(&self, k: usize) -> Vec<f64> {
         self.values.iter().skip(k).step_by(self.columns.max(1)).copied().collect()
     }
 
-    pub(super) fn as_ref(&self) -> MatRef<'_, f64> {
+    pub(crate) fn as_ref(&self) -> MatRef<'_, f64> {
         MatRef::from_row_major_slice(&self.values, self.rows, self.columns)
     }
 
-    pub(super) fn as_mut(&mut self) -> MatMut<'_, f64> {
+    pub(crate) fn as_mut(&mut self) -> MatMut<'_, f64> {
         MatMut::from_row_major_slice_mut(&mut self.values, self.rows, self.columns)
     }
 
     /// `self · other`.
-    pub(super) fn times(&self, other: MatRef<'_, f64>) -> Self {
+    pub(crate) fn times(&self, other: MatRef<'_, f64>) -> Self {
         let mut product = Self::zeros(self.rows, other.ncols());
         matmul(product.as_mut(), Accum::Replace, self.as_ref(), other, 1.0, Par::Seq);
         product
@@ -86,7 +86,7 @@ impl Block {
     }
 
     /// `selfᵀ · other`.
-    pub(super) fn products(&self, other: &Self) -> Mat<f64> {
+    pub(crate) fn products(&self, other: &Self) -> Mat<f64> {
         let mut products = Mat::zeros(self.columns, other.columns);
         let across = self.as_ref().transpose();
         matmul(products.as_mut(), Accum::Replace, across, other.as_ref(), 1.0, Par::Seq);
@@ -95,7 +95,7 @@ impl Block {
 }
 
 /// Takes from each column of `block` its share in each orthonormal part; returns the shares.
-pub(super) fn clear(basis: &[Block], block: &mut Block) -> Mat<f64> {
+pub(crate) fn project_out(basis: &[Block], block: &mut Block) -> Mat<f64> {
     let rows = basis.iter().map(|part| part.columns).sum();
     let mut all = Mat::zeros(rows, block.columns);
     let mut from = 0;
@@ -111,10 +111,10 @@ pub(super) fn clear(basis: &[Block], block: &mut Block) -> Mat<f64> {
 
 /// Makes the columns orthonormal and returns the triangular factor; columns that vanish are
 /// left out.
-pub(super) fn orthonormal(block: &mut Block) -> Mat<f64> {
+pub(crate) fn orthonormalise(block: &mut Block) -> Mat<f64> {
     // By the Cholesky factor of the products, twice (Fukaya et al. 2014), if that is safe.
     let mut quick = || {
-        let (factor, inverse) = triangle(&block.products(block))?;
+        let (factor, inverse) = cholesky(&block.products(block))?;
         block.multiply(inverse.as_ref());
         Some(factor)
     };
@@ -126,7 +126,7 @@ pub(super) fn orthonormal(block: &mut Block) -> Mat<f64> {
 
 /// The upper triangular `R` of `RᵀR = products` and its inverse; `None` if a column nearly
 /// depends on those before.
-pub(super) fn triangle(products: &Mat<f64>) -> Option<(Mat<f64>, Mat<f64>)> {
+pub(crate) fn cholesky(products: &Mat<f64>) -> Option<(Mat<f64>, Mat<f64>)> {
     let n = products.ncols();
     let mut factor = Mat::<f64>::zeros(n, n);
     let mut inverse = Mat::<f64>::zeros(n, n);
@@ -157,7 +157,7 @@ fn column_by_column(block: &mut Block) -> Mat<f64> {
     for j in 0..block.columns {
         let mut column = Block { rows: block.rows, columns: 1, values: block.column(j) };
         for _ in 0..2 {
-            let shares = clear(&made, &mut column);
+            let shares = project_out(&made, &mut column);
             (0..made.len()).for_each(|i| factor[(i, j)] += shares[(i, 0)]);
         }
         let length = column.values.iter().map(|x| x * x).sum::<f64>().sqrt();

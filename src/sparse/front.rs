@@ -1,7 +1,7 @@
 //! One front: gathering, elimination, and the update for the parent.
 
-use crate::rigidity::factor::{Entries, Singular};
-use crate::rigidity::symbolic::{Supernode, Symbolic};
+use crate::sparse::factor::{Entries, Singular};
+use crate::sparse::symbolic::{Supernode, Symbolic};
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::linalg::cholesky::llt::factor::{cholesky_in_place, cholesky_in_place_scratch};
 use faer::linalg::matmul::matmul;
@@ -16,13 +16,13 @@ const LARGE: f64 = 2e8;
 const TOGETHER: usize = 128;
 
 /// What one thread works with.
-pub(super) struct Work<'a> {
-    pub(super) symbolic: &'a Symbolic,
+pub(crate) struct Workspace<'a> {
+    pub(crate) symbolic: &'a Symbolic,
     threads: usize,
     /// By place of a group, its first row in the present front.
     local: Vec<u32>,
     /// Updates that wait for their parents, on two stacks: of supernodes at even depth and
-    /// at odd depth, so that a front reads from one and writes to the other.
+    /// at odd_depth depth, so that a front reads from one and writes to the other.
     stacks: [Vec<f64>; 2],
     /// How much of each is in use.
     tops: [usize; 2],
@@ -31,15 +31,15 @@ pub(super) struct Work<'a> {
 
 /// The update of a supernode, of which the lower triangle counts.
 #[derive(Clone, Copy)]
-pub(super) struct Letter<'a> {
-    pub(super) child: &'a Supernode,
-    pub(super) values: &'a [f64],
+pub(crate) struct Update<'a> {
+    pub(crate) child: &'a Supernode,
+    pub(crate) values: &'a [f64],
     /// Whether the columns begin at the diagonal.
-    pub(super) packed: bool,
+    pub(crate) packed: bool,
 }
 
-/// One side of a front: its own columns, or the update.
-struct Side<'a> {
+/// One part of a front: its own columns, or the update.
+struct FrontPart<'a> {
     values: &'a mut [f64],
     /// Length of a column.
     height: usize,
@@ -47,8 +47,8 @@ struct Side<'a> {
     above: usize,
 }
 
-impl<'a> Work<'a> {
-    pub(super) fn new(symbolic: &'a Symbolic, threads: usize) -> Self {
+impl<'a> Workspace<'a> {
+    pub(crate) fn new(symbolic: &'a Symbolic, threads: usize) -> Self {
         Self {
             symbolic,
             threads,
@@ -60,22 +60,24 @@ impl<'a> Work<'a> {
     }
 
     /// Makes room for the updates of some supernodes, children first, whose children are
-    /// among them or have their letters in the `mail`.
-    pub(super) fn make_room(
+    /// among them or were handed theirs.
+    pub(crate) fn reserve(
         &mut self,
         supernodes: impl Iterator<Item = usize>,
-        mail: &[Vec<f64>],
+        handed: &[Vec<f64>],
     ) {
         let nodes = &self.symbolic.supernodes;
         let (mut tops, mut most) = ([0_usize; 2], [0_usize; 2]);
         let mut widest = 0;
         for s in supernodes {
             let node = &nodes[s];
-            let own = usize::from(node.odd);
+            let own = usize::from(node.odd_depth);
             tops[own] += node.below * node.below;
             most[own] = most[own].max(tops[own]);
-            let gone =
-                node.children.iter().filter(|&&k| mail.get(k).is_none_or(Vec::is_empty));
+            let gone = node
+                .children
+                .iter()
+                .filter(|&&k| handed.get(k).is_none_or(Vec::is_empty));
             tops[1 - own] -= gone.map(|&child| nodes[child].below.pow(2)).sum::<usize>();
             widest = widest.max(node.width);
         }
@@ -91,7 +93,7 @@ impl<'a> Work<'a> {
     }
 
     /// Numbers the rows of a front.
-    fn enter(&mut self, node: &Supernode) {
+    fn number_rows(&mut self, node: &Supernode) {
         let mut row = 0;
         let own = (node.first..node.end).map(|k| k as u32);
         for k in own.chain(node.rows.iter().copied()) {
@@ -101,7 +103,7 @@ impl<'a> Work<'a> {
     }
 
     /// The columns of a front with its own entries, in a buffer that is used again.
-    pub(super) fn gather(
+    pub(crate) fn gather(
         &mut self,
         s: usize,
         entries: &dyn Entries,
@@ -110,7 +112,7 @@ impl<'a> Work<'a> {
         let symbolic = self.symbolic;
         let node = &symbolic.supernodes[s];
         let height = node.width + node.below;
-        self.enter(node);
+        self.number_rows(node);
         columns.clear();
         columns.resize(node.width * height, 0.0);
         entries.entries(s, &mut |row, column, block| {
@@ -123,73 +125,74 @@ impl<'a> Work<'a> {
         });
     }
 
-    /// Eliminates a supernode whose columns were gathered. Children whose letters are not
-    /// in the `mail` have theirs on top of the stack.
-    pub(super) fn eliminate(
+    /// Eliminates a supernode whose columns were gathered. Children that were not handed
+    /// theirs have them on top of the stack.
+    pub(crate) fn eliminate(
         &mut self,
         s: usize,
         columns: &mut [f64],
-        mail: &[Vec<f64>],
+        handed: &[Vec<f64>],
     ) -> Result<(), Singular> {
         let node = &self.symbolic.supernodes[s];
-        let (height, own) = (node.width + node.below, usize::from(node.odd));
-        self.enter(node);
+        let (height, own) = (node.width + node.below, usize::from(node.odd_depth));
+        self.number_rows(node);
         let mut stacks = std::mem::take(&mut self.stacks);
-        let [even, odd] = &mut stacks;
-        let (theirs, ours) = if node.odd { (even, odd) } else { (odd, even) };
-        let (letters, left) = self.letters(node, &theirs[..self.tops[1 - own]], mail);
+        let [even, odd_depth] = &mut stacks;
+        let (theirs, ours) =
+            if node.odd_depth { (even, odd_depth) } else { (odd_depth, even) };
+        let (updates, left) = self.updates(node, &theirs[..self.tops[1 - own]], handed);
         self.tops[1 - own] = left;
-        for &letter in &letters {
-            let side = Side { values: columns, height, above: 0 };
-            self.take_in(letter, node.width, side);
+        for &child in &updates {
+            let part = FrontPart { values: columns, height, above: 0 };
+            self.extend_add(child, node.width, part);
         }
         let from = self.tops[own];
         self.tops[own] += node.below * node.below;
         let update = &mut ours[from..self.tops[own]];
         self.reduce(node, columns, update)?;
-        for &letter in &letters {
+        for &child in &updates {
             let (height, above) = (node.below, node.width);
-            let side = Side { values: update, height, above };
-            self.take_in(letter, node.width, side);
+            let part = FrontPart { values: update, height, above };
+            self.extend_add(child, node.width, part);
         }
         self.stacks = stacks;
         Ok(())
     }
 
-    /// The letters of the children, and how much of the stack is left without them.
-    fn letters<'b>(
+    /// The updates of the children, and how much of the stack is left without them.
+    fn updates<'b>(
         &self,
         node: &Supernode,
         stack: &'b [f64],
-        mail: &'b [Vec<f64>],
-    ) -> (Vec<Letter<'b>>, usize)
+        handed: &'b [Vec<f64>],
+    ) -> (Vec<Update<'b>>, usize)
     where
         'a: 'b,
     {
         let nodes = &self.symbolic.supernodes;
         let mut left = stack.len();
-        let mut letters = Vec::with_capacity(node.children.len());
+        let mut updates = Vec::with_capacity(node.children.len());
         for &k in node.children.iter().rev() {
             let child = &nodes[k];
-            let mailed = mail.get(k).filter(|letter| !letter.is_empty());
-            letters.push(match mailed {
-                Some(values) => Letter { child, values, packed: true },
+            let packed = handed.get(k).filter(|update| !update.is_empty());
+            updates.push(match packed {
+                Some(values) => Update { child, values, packed: true },
                 None => {
                     let from = left - child.below * child.below;
                     let values = &stack[from..left];
                     left = from;
-                    Letter { child, values, packed: false }
+                    Update { child, values, packed: false }
                 }
             });
         }
-        letters.reverse();
-        (letters, left)
+        updates.reverse();
+        (updates, left)
     }
 
     /// The update of the supernode that was eliminated last, packed.
-    pub(super) fn last_letter(&mut self, s: usize) -> Vec<f64> {
+    pub(crate) fn last_update(&mut self, s: usize) -> Vec<f64> {
         let node = &self.symbolic.supernodes[s];
-        let own = usize::from(node.odd);
+        let own = usize::from(node.odd_depth);
         let n = node.below;
         let values = &self.stacks[own][self.tops[own] - n * n..self.tops[own]];
         let mut packed = Vec::with_capacity(n * (n + 1) / 2);
@@ -229,36 +232,36 @@ impl<'a> Work<'a> {
             let half = if large { bottom.nrows() / 2 } else { 0 };
             let (upper, lower) = bottom.rb_mut().split_at_row_mut(half);
             let top = top.rb();
-            both(threads, || solve_below(top, lower), || solve_below(top, upper));
+            join(threads, || trsm(top, lower), || trsm(top, upper));
             let rest = right.split_at_row_mut(to).1;
-            less_squares(threads, rest, bottom.rb(), Accum::Add);
+            syrk(threads, rest, bottom.rb(), Accum::Add);
         }
         let update = MatMut::from_column_major_slice_mut(update, below, below);
-        less_squares(threads, update, front.rb().split_at_row(width).1, Accum::Replace);
+        syrk(threads, update, front.rb().split_at_row(width).1, Accum::Replace);
         Ok(())
     }
 
-    /// Adds that part of a child's update which belongs to one side of the present front of
+    /// Adds that part of a child's update which belongs to one part of the present front of
     /// `width` own rows.
-    fn take_in(&self, letter: Letter, width: usize, side: Side) {
-        let runs = self.runs(letter.child, width);
-        let height = letter.child.below;
+    fn extend_add(&self, update: Update, width: usize, part: FrontPart) {
+        let runs = self.runs(update.child, width);
+        let height = update.child.below;
         let (mut column, mut at) = (0, 0);
         for (index, &(local, size)) in runs.iter().enumerate() {
             for k in 0..size {
-                let source = &letter.values[at..at + height - column];
-                at += if letter.packed { height - column } else { height + 1 };
+                let source = &update.values[at..at + height - column];
+                at += if update.packed { height - column } else { height + 1 };
                 column += 1;
-                if (local < width) != (side.above == 0) {
+                if (local < width) != (part.above == 0) {
                     continue;
                 }
-                let row = local + k - side.above;
-                let from = row * side.height;
-                let target = &mut side.values[from..from + side.height];
+                let row = local + k - part.above;
+                let from = row * part.height;
+                let target = &mut part.values[from..from + part.height];
                 let mut from = size - k;
                 add(&mut target[row..row + from], &source[..from]);
                 for &(row, size) in &runs[index + 1..] {
-                    let row = row - side.above;
+                    let row = row - part.above;
                     add(&mut target[row..row + size], &source[from..from + size]);
                     from += size;
                 }
@@ -284,7 +287,7 @@ impl<'a> Work<'a> {
     }
 }
 
-fn both(threads: usize, first: impl FnOnce(), second: impl FnOnce() + Send) {
+fn join(threads: usize, first: impl FnOnce(), second: impl FnOnce() + Send) {
     if threads < 2 {
         first();
         second();
@@ -301,7 +304,7 @@ fn add(into: &mut [f64], values: &[f64]) {
 }
 
 /// `bottom` becomes `bottom · top⁻ᵀ`.
-fn solve_below(top: MatRef<'_, f64>, bottom: MatMut<'_, f64>) {
+fn trsm(top: MatRef<'_, f64>, bottom: MatMut<'_, f64>) {
     if bottom.nrows() > 0 {
         solve_lower_triangular_in_place(top, bottom.transpose_mut(), Par::Seq);
     }
@@ -309,20 +312,20 @@ fn solve_below(top: MatRef<'_, f64>, bottom: MatMut<'_, f64>) {
 
 /// Takes `a · aᵀ`, as far as it stands on or below the diagonal, from `into`, or writes its
 /// opposite; in two parts if `threads` allow.
-fn less_squares(threads: usize, into: MatMut<'_, f64>, a: MatRef<'_, f64>, accum: Accum) {
+fn syrk(threads: usize, into: MatMut<'_, f64>, a: MatRef<'_, f64>, accum: Accum) {
     // Equal work: the first columns of a triangle are its longest.
     let cut = if threads < 2 { 0 } else { into.ncols() * 3 / 10 };
     let (left, right) = into.split_at_col_mut(cut);
     let right = right.split_at_row_mut(cut).1;
     let low = a.split_at_row(cut).1;
-    both(
+    join(
         threads,
-        || less_trapezoid(right, low, accum),
-        || less_trapezoid(left, a, accum),
+        || syrk_trapezoid(right, low, accum),
+        || syrk_trapezoid(left, a, accum),
     );
 }
 
-fn less_trapezoid(into: MatMut<'_, f64>, a: MatRef<'_, f64>, accum: Accum) {
+fn syrk_trapezoid(into: MatMut<'_, f64>, a: MatRef<'_, f64>, accum: Accum) {
     let columns = into.ncols();
     if columns == 0 {
         return;

@@ -1,4 +1,4 @@
-//! Work on several threads whose results do not depend on how many there are.
+//! Workspace on several threads whose results do not depend on how many there are.
 
 use std::ops::Range;
 use std::sync::{Mutex, PoisonError};
@@ -7,12 +7,12 @@ use std::sync::{Mutex, PoisonError};
 const FEW: usize = 5000;
 
 /// How many of the threads are worth it for so many unknowns.
-pub(super) fn worthwhile(threads: usize, unknowns: usize) -> usize {
+pub(crate) fn worthwhile(threads: usize, unknowns: usize) -> usize {
     if unknowns < FEW { 1 } else { threads }
 }
 
 /// Runs `task` on each item, each thread with a state of its own; results in order.
-pub(super) fn dealt<I: Send, S, T: Send>(
+pub(crate) fn map_items<I: Send, S, T: Send>(
     threads: usize,
     items: impl ExactSizeIterator<Item = I> + Send,
     state: impl Fn() -> S + Sync,
@@ -48,17 +48,17 @@ pub(super) fn dealt<I: Send, S, T: Send>(
 }
 
 /// The same for 0 to `count` - 1.
-pub(super) fn side_by_side<S, T: Send>(
+pub(crate) fn map_range<S, T: Send>(
     threads: usize,
     count: usize,
     state: impl Fn() -> S + Sync,
     task: impl Fn(&mut S, usize) -> T + Sync,
 ) -> Vec<T> {
-    dealt(threads, 0..count, state, task)
+    map_items(threads, 0..count, state, task)
 }
 
 /// `make` for ranges that cover `0..count`, side by side, put together in order.
-pub(super) fn in_parts<T: Send>(
+pub(crate) fn map_chunks<T: Send>(
     count: usize,
     threads: usize,
     make: impl Fn(Range<usize>) -> Vec<T> + Sync,
@@ -68,6 +68,6 @@ pub(super) fn in_parts<T: Send>(
     }
     let share = count.div_ceil(threads);
     let part = |k: usize| (k * share).min(count)..((k + 1) * share).min(count);
-    let parts = side_by_side(threads, threads, || (), |(), k| make(part(k)));
+    let parts = map_range(threads, threads, || (), |(), k| make(part(k)));
     parts.into_iter().flatten().collect()
 }

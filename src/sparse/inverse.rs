@@ -5,9 +5,9 @@
 //! rows below are part of (Takahashi, Fagan and Chin 1973; by supernodes Lin et al. 2011).
 //! Takes two to three times as long as the factorisation.
 
-use crate::rigidity::factor::{Factor, Halt};
-use crate::rigidity::side::side_by_side;
-use crate::rigidity::symbolic::{Supernode, Symbolic};
+use crate::sparse::factor::{Factor, Halt};
+use crate::sparse::parallel::map_range;
+use crate::sparse::symbolic::{Supernode, Symbolic};
 use crate::watch::Watch;
 use faer::linalg::matmul::matmul;
 use faer::linalg::triangular_solve::{
@@ -24,26 +24,25 @@ impl Factor<'_> {
     ///
     /// # Errors
     /// [`Halt::Stopped`].
-    pub(super) fn inverse_blocks<T: Send>(
+    pub(crate) fn inverse_blocks<T: Send>(
         &self,
         take: &(dyn Fn(MatRef<'_, f64>) -> T + Sync),
         watch: &dyn Watch,
     ) -> Result<Vec<T>, Halt> {
         let count = self.symbolic.supernodes.len();
-        let mut trunk: Fronts = vec![None; count];
+        let mut top: Fronts = vec![None; count];
         let mut taken: Vec<(usize, T)> = Vec::with_capacity(self.symbolic.place.len());
-        for &s in self.trunk.iter().rev() {
+        for &s in self.top.iter().rev() {
             Halt::if_stopped(watch)?;
-            let front = self.front(s, |parent| trunk[parent].as_ref());
+            let front = self.front(s, |parent| top[parent].as_ref());
             taken.extend(self.blocks(s, front.as_ref(), take));
-            trunk[s] = Some(front);
+            top[s] = Some(front);
         }
-        let branch = |fronts: &mut Fronts, k: usize| {
+        let subtree = |fronts: &mut Fronts, k: usize| {
             let mut taken = Vec::new();
             for s in self.range(k).rev() {
-                let front = self.front(s, |parent| {
-                    fronts[parent].as_ref().or(trunk[parent].as_ref())
-                });
+                let front = self
+                    .front(s, |parent| fronts[parent].as_ref().or(top[parent].as_ref()));
                 taken.extend(self.blocks(s, front.as_ref(), take));
                 self.put(s, front, fronts);
             }
@@ -51,8 +50,8 @@ impl Factor<'_> {
         };
         Halt::if_stopped(watch)?;
         let fresh = || vec![None; count];
-        let branches = side_by_side(self.threads, self.branches.len(), fresh, branch);
-        taken.extend(branches.into_iter().flatten());
+        let subtrees = map_range(self.threads, self.subtrees.len(), fresh, subtree);
+        taken.extend(subtrees.into_iter().flatten());
         taken.sort_unstable_by_key(|(place, _)| *place);
         Ok(taken.into_iter().map(|(_, block)| block).collect())
     }

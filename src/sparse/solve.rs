@@ -1,22 +1,22 @@
 //! Solving with the factor: down its tree, and up again.
 
-use crate::rigidity::factor::Factor;
-use crate::rigidity::panel::{ABREAST, Row};
-use crate::rigidity::side::dealt;
-use crate::rigidity::symbolic::{Supernode, Symbolic};
+use crate::sparse::factor::Factor;
+use crate::sparse::panel::{RHS, Row};
+use crate::sparse::parallel::map_items;
+use crate::sparse::symbolic::{Supernode, Symbolic};
 use std::ops::Range;
 
 impl Factor<'_> {
     /// Solves for `count` right-hand sides, which lie row by row in `x`, `count` numbers per
     /// unknown; `x` receives the solutions.
-    pub(super) fn solve(&self, x: &mut [f64], count: usize) {
-        if let (ABREAST, (rows, [])) = (count, x.as_chunks_mut()) {
+    pub(crate) fn solve(&self, x: &mut [f64], count: usize) {
+        if let (RHS, (rows, [])) = (count, x.as_chunks_mut()) {
             self.solve_rows(rows);
             return;
         }
-        let mut rows = vec![[0.0; ABREAST]; self.symbolic.unknowns()];
-        for from in (0..count).step_by(ABREAST) {
-            let some = ABREAST.min(count - from);
+        let mut rows = vec![[0.0; RHS]; self.symbolic.unknowns()];
+        for from in (0..count).step_by(RHS) {
+            let some = RHS.min(count - from);
             for (row, x) in rows.iter_mut().zip(x.chunks_exact(count)) {
                 row[..some].copy_from_slice(&x[from..from + some]);
             }
@@ -28,20 +28,20 @@ impl Factor<'_> {
     }
 
     fn solve_rows(&self, x: &mut [Row]) {
-        let beyond = self.each_branch(x, |part, k| {
+        let beyond = self.each_subtree(x, |part, k| {
             for s in self.range(k) {
                 self.forward(s, part);
             }
         });
-        for (&root, beyond) in self.branches.iter().zip(&beyond) {
+        for (&root, beyond) in self.subtrees.iter().zip(&beyond) {
             let mut beyond = beyond.iter();
             for &group in &self.symbolic.supernodes[root].rows {
                 let rows = &mut x[self.symbolic.rows(group as usize)];
                 rows.iter_mut().zip(&mut beyond).for_each(|(x, v)| add(x, v));
             }
         }
-        self.solve_trunk(x);
-        let roots = self.branches.iter().map(|&root| &self.symbolic.supernodes[root]);
+        self.solve_top(x);
+        let roots = self.subtrees.iter().map(|&root| &self.symbolic.supernodes[root]);
         let beyond: Vec<Vec<Row>> = roots
             .map(|root| {
                 let rows = root.rows.iter();
@@ -49,7 +49,7 @@ impl Factor<'_> {
                 rows.flatten().copied().collect()
             })
             .collect();
-        self.each_branch(x, |part, k| {
+        self.each_subtree(x, |part, k| {
             part.beyond.clone_from(&beyond[k]);
             for s in self.range(k).rev() {
                 self.backward(s, part);
@@ -57,9 +57,9 @@ impl Factor<'_> {
         });
     }
 
-    /// Forward and backward on the trunk, whose supernodes wait for each other.
-    fn solve_trunk(&self, x: &mut [Row]) {
-        let nodes = || self.trunk.iter().map(|&s| &self.symbolic.supernodes[s]);
+    /// Forward and backward on the top, whose supernodes wait for each other.
+    fn solve_top(&self, x: &mut [Row]) {
+        let nodes = || self.top.iter().map(|&s| &self.symbolic.supernodes[s]);
         let at = |node: &Supernode| {
             let from = self.symbolic.start[node.first];
             from..from + node.width
@@ -73,14 +73,14 @@ impl Factor<'_> {
         }
         part.beyond.reserve_exact(count);
         part.beyond.extend(nodes().flat_map(|node| &x[at(node)]));
-        self.trunk.iter().for_each(|&s| self.forward(s, &mut part));
-        self.trunk.iter().rev().for_each(|&s| self.backward(s, &mut part));
+        self.top.iter().for_each(|&s| self.forward(s, &mut part));
+        self.top.iter().rev().for_each(|&s| self.backward(s, &mut part));
         nodes().flat_map(at).zip(part.beyond).for_each(|(row, solved)| x[row] = solved);
     }
 
-    /// Runs `task` on the part of `x` that belongs to each branch; returns what each leaves
+    /// Runs `task` on the part of `x` that belongs to each subtree; returns what each leaves
     /// for the unknowns beyond it.
-    fn each_branch(
+    fn each_subtree(
         &self,
         x: &mut [Row],
         task: impl Fn(&mut Part, usize) + Sync,
@@ -90,11 +90,11 @@ impl Factor<'_> {
             let range = self.range(k);
             nodes[range.start].first..nodes[range.end - 1].end
         };
-        let mut by_place: Vec<usize> = (0..self.branches.len()).collect();
-        by_place.sort_by_key(|&k| self.branches[k]);
+        let mut by_place: Vec<usize> = (0..self.subtrees.len()).collect();
+        by_place.sort_by_key(|&k| self.subtrees[k]);
         let (mut rest, mut cut) = (x, 0);
         let mut owns: Vec<&mut [Row]> =
-            self.branches.iter().map(|_| [].as_mut()).collect();
+            self.subtrees.iter().map(|_| [].as_mut()).collect();
         for k in by_place {
             let [from, to] =
                 [groups(k).start, groups(k).end].map(|group| symbolic.start[group]);
@@ -103,7 +103,7 @@ impl Factor<'_> {
             owns[k] = &mut own[from - cut..];
             cut = to;
         }
-        dealt(
+        map_items(
             self.threads,
             owns.into_iter().enumerate(),
             || (vec![0; symbolic.place.len()], Vec::new()),
@@ -111,7 +111,7 @@ impl Factor<'_> {
                 let mut part = Part::new(symbolic);
                 (part.local, part.scratch) =
                     (std::mem::take(local), std::mem::take(scratch));
-                part.enter(&nodes[self.branches[k]]);
+                part.enter(&nodes[self.subtrees[k]]);
                 part.groups = groups(k);
                 part.own = own;
                 task(&mut part, k);
@@ -126,7 +126,7 @@ impl Factor<'_> {
         let mut rows = std::mem::take(&mut part.scratch);
         rows.clear();
         rows.extend_from_slice(part.unknowns(node));
-        rows.resize(node.width + node.below, [0.0; ABREAST]);
+        rows.resize(node.width + node.below, [0.0; RHS]);
         self.columns(s).forward(&mut rows);
         let (solved, mut rest) = rows.split_at(node.width);
         part.unknowns(node).copy_from_slice(solved);
@@ -179,7 +179,7 @@ impl<'a> Part<'a> {
             self.local[group as usize] = at as u32;
             at += self.symbolic.size(group as usize);
         }
-        self.beyond.resize(at, [0.0; ABREAST]);
+        self.beyond.resize(at, [0.0; RHS]);
     }
 
     /// The rows of a group.

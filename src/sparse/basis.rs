@@ -3,10 +3,10 @@
 //! Works on pieces of some rows, each read once for all that is asked of it, side by side.
 //! Sums are taken piece by piece in order: one thread and many give the same bits.
 
-use crate::rigidity::abreast;
-use crate::rigidity::block::{Block, clear, orthonormal, triangle};
-use crate::rigidity::panel::ABREAST;
-use crate::rigidity::side::{dealt, worthwhile};
+use crate::sparse::block::{Block, cholesky, orthonormalise, project_out};
+use crate::sparse::panel::RHS;
+use crate::sparse::parallel::{map_items, worthwhile};
+use crate::sparse::tall;
 use faer::linalg::matmul::matmul;
 use faer::{Accum, Mat, MatMut, MatRef, Par};
 
@@ -16,21 +16,21 @@ const ROWS: usize = 512;
 const NEAR: usize = 2;
 
 /// Blocks whose columns are orthonormal altogether.
-pub(super) struct Basis {
-    pub(super) blocks: Vec<Block>,
+pub(crate) struct Basis {
+    pub(crate) blocks: Vec<Block>,
     threads: usize,
     /// How many blocks it began with.
-    barred: usize,
+    deflated: usize,
 }
 
 /// What a block that was cleared had in the basis, and what is left.
-pub(super) struct Cleared {
+pub(crate) struct Cleared {
     /// Shares of its columns in the vectors of the basis after those it began with.
-    pub(super) shares: Mat<f64>,
+    pub(crate) shares: Mat<f64>,
     /// The triangular factor of what is left.
-    pub(super) rest: Mat<f64>,
+    pub(crate) rest: Mat<f64>,
     /// Its inverse; `None` if the block is orthonormal already.
-    pub(super) inverse: Option<Mat<f64>>,
+    pub(crate) inverse: Option<Mat<f64>>,
 }
 
 /// Some rows of a block.
@@ -43,49 +43,49 @@ struct Piece<'a> {
 
 impl Basis {
     /// Begins with `blocks`.
-    pub(super) fn new(blocks: Vec<Block>, rows: usize, threads: usize) -> Self {
-        Self { barred: blocks.len(), blocks, threads: worthwhile(threads, rows) }
+    pub(crate) fn new(blocks: Vec<Block>, rows: usize, threads: usize) -> Self {
+        Self { deflated: blocks.len(), blocks, threads: worthwhile(threads, rows) }
     }
 
     /// Takes from each column of an operator's image of the last block its share in the
     /// basis. Such an image has none but in the two last blocks (Lanczos).
-    pub(super) fn clear(&self, block: &mut Block) -> Cleared {
-        let near = self.blocks.len().saturating_sub(NEAR).max(self.barred);
-        let (barred, late) = (&self.blocks[..self.barred], &self.blocks[near..]);
-        let parts: Vec<&Block> = barred.iter().chain(late).collect();
+    pub(crate) fn project_out(&self, block: &mut Block) -> Cleared {
+        let near = self.blocks.len().saturating_sub(NEAR).max(self.deflated);
+        let (deflated, late) = (&self.blocks[..self.deflated], &self.blocks[near..]);
+        let parts: Vec<&Block> = deflated.iter().chain(late).collect();
         let (shares, left) = self.take_shares(block, &parts, None);
         let columns = |blocks: &[Block]| blocks.iter().map(|b| b.columns).sum::<usize>();
-        let (before, own) = (columns(&self.blocks[self.barred..near]), columns(late));
-        let skipped = columns(barred);
+        let (before, own) = (columns(&self.blocks[self.deflated..near]), columns(late));
+        let skipped = columns(deflated);
         let mut all = Mat::zeros(before + own, block.columns);
         all.subrows_mut(before, own).copy_from(shares.subrows(skipped, own));
         let shares = all;
         // By the Cholesky factor of the products if that is safe.
-        match triangle(&left) {
+        match cholesky(&left) {
             Some((rest, inverse)) => Cleared { shares, rest, inverse: Some(inverse) },
-            None => Cleared { shares, rest: orthonormal(block), inverse: None },
+            None => Cleared { shares, rest: orthonormalise(block), inverse: None },
         }
     }
 
     /// Adds the columns of a block that was cleared, made orthonormal. What has shrunk has
     /// lost digits, so that both steps are made twice (Fukaya et al. 2014).
-    pub(super) fn add(&mut self, block: &mut Block, inverse: Option<&Mat<f64>>) {
+    pub(crate) fn add(&mut self, block: &mut Block, inverse: Option<&Mat<f64>>) {
         let parts: Vec<&Block> = self.blocks.iter().collect();
         let (_, left) = self.take_shares(block, &parts, inverse);
-        if let Some((_, inverse)) = triangle(&left) {
+        if let Some((_, inverse)) = cholesky(&left) {
             self.blocks.push(self.product(&[block], inverse.as_ref()));
             return;
         }
-        orthonormal(block);
-        clear(&self.blocks, block);
-        orthonormal(block);
+        orthonormalise(block);
+        project_out(&self.blocks, block);
+        orthonormalise(block);
         self.blocks.push(block.clone());
     }
 
     /// The combinations of vectors, after those it began with, whose coefficients are the
     /// columns of `of`.
-    pub(super) fn combined(&self, of: MatRef<'_, f64>) -> Block {
-        let parts: Vec<&Block> = self.blocks[self.barred..].iter().collect();
+    pub(crate) fn combined(&self, of: MatRef<'_, f64>) -> Block {
+        let parts: Vec<&Block> = self.blocks[self.deflated..].iter().collect();
         self.product(&parts, of)
     }
 
@@ -135,7 +135,7 @@ impl Basis {
         let one = |(): &mut (), (k, values): (usize, &mut [f64])| {
             task(Piece { from: k * ROWS, columns, values })
         };
-        dealt(self.threads, pieces, || (), one)
+        map_items(self.threads, pieces, || (), one)
     }
 }
 
@@ -180,9 +180,10 @@ impl Piece<'_> {
 
     /// Products of `columns` columns with its own.
     fn products(&self, of: &[f64], columns: usize) -> Mat<f64> {
-        if let (ABREAST, ABREAST) = (columns, self.columns) {
-            let sums = abreast::products(of.as_chunks().0, self.values.as_chunks().0);
-            return Mat::from_fn(ABREAST, ABREAST, |i, j| sums[i][j]);
+        if let (RHS, RHS) = (columns, self.columns) {
+            let sums =
+                tall::transposed_product(of.as_chunks().0, self.values.as_chunks().0);
+            return Mat::from_fn(RHS, RHS, |i, j| sums[i][j]);
         }
         let mut products = Mat::zeros(columns, self.columns);
         let rows = self.values.len() / self.columns.max(1);
@@ -194,9 +195,13 @@ impl Piece<'_> {
 
     /// Takes from it some columns with these coefficients.
     fn less(&mut self, columns: &[f64], of: MatRef<'_, f64>) {
-        if let (ABREAST, ABREAST) = (of.nrows(), of.ncols()) {
+        if let (RHS, RHS) = (of.nrows(), of.ncols()) {
             let of = std::array::from_fn(|i| std::array::from_fn(|j| of[(i, j)]));
-            abreast::less(self.values.as_chunks_mut().0, columns.as_chunks().0, &of);
+            tall::subtract_product(
+                self.values.as_chunks_mut().0,
+                columns.as_chunks().0,
+                &of,
+            );
             return;
         }
         let rows = self.values.len() / self.columns.max(1);
