@@ -10,7 +10,7 @@ use crate::diagnostic::{Finding, passes};
 use crate::job;
 use crate::joint::Joint;
 use crate::rigidity::{
-    self, Fingerprint, Look, MOST_PAIRED, MOST_STEPS, Model, Pairing, Question,
+    self, Criteria, Fingerprint, Look, MOST_PAIRED, MOST_STEPS, Model, Pairing,
     RigidityFinding, Stopped, SwayLimit, Verdict,
 };
 use crate::setting;
@@ -123,7 +123,7 @@ fn limit(text: &str) -> Result<SwayLimit, String> {
 struct Case {
     model: Model,
     fingerprint: Fingerprint,
-    question: Question,
+    criteria: Criteria,
     findings: Vec<Finding>,
     joint: Option<Joint>,
     structure: Option<Structure>,
@@ -147,7 +147,7 @@ pub(super) fn rigidity(args: &RigidityArgs, voice: Voice) -> Result<End, Failure
             return Ok(End::Refused);
         }
     };
-    args.amend(&mut case.question);
+    args.amend(&mut case.criteria);
     if let Some(fact) = args.too_many_pairs(case.model.bodies.len()) {
         let said = fact.to_string();
         let findings = || vec![Finding::from(fact.clone())];
@@ -171,12 +171,12 @@ pub(super) fn rigidity(args: &RigidityArgs, voice: Voice) -> Result<End, Failure
 
 impl RigidityArgs {
     fn verdict(&self, case: &Case, watch: &mut dyn Watch) -> Result<Verdict, Stopped> {
-        let (model, question) = (&case.model, &case.question);
-        let verdict = rigidity::judge(model, question, case.fingerprint.clone(), watch)?;
+        let (model, criteria) = (&case.model, &case.criteria);
+        let verdict = rigidity::judge(model, criteria, case.fingerprint.clone(), watch)?;
         if !self.remedies {
             return Ok(verdict);
         }
-        let remedies = rigidity::remedies(model, question, MOST_STEPS, watch)?;
+        let remedies = rigidity::remedies(model, criteria, MOST_STEPS, watch)?;
         Ok(verdict.with_remedies(remedies))
     }
 
@@ -208,11 +208,11 @@ impl RigidityArgs {
         )
     }
 
-    fn amend(&self, question: &mut Question) {
-        question.modes = usize::from(self.modes);
-        question.pairing = self.pairing;
-        question.play_mm = self.play.unwrap_or(question.play_mm);
-        question.limit = self.sway_limit.unwrap_or(question.limit);
+    fn amend(&self, criteria: &mut Criteria) {
+        criteria.modes = usize::from(self.modes);
+        criteria.pairing = self.pairing;
+        criteria.play_mm = self.play.unwrap_or(criteria.play_mm);
+        criteria.limit = self.sway_limit.unwrap_or(criteria.limit);
     }
 }
 
@@ -229,7 +229,7 @@ fn linkage(path: &Path, json: bool) -> Result<Result<Case, Vec<Finding>>, Failur
             return Err(Failure::Said(End::CouldNotRun));
         }
     };
-    let question = Question {
+    let criteria = Criteria {
         play_mm: 0.0,
         limit: SwayLimit::Share(1.0 / 50.0),
         modes: 6,
@@ -240,7 +240,7 @@ fn linkage(path: &Path, json: bool) -> Result<Result<Case, Vec<Finding>>, Failur
     Ok(Ok(Case {
         model,
         fingerprint,
-        question,
+        criteria,
         findings: Vec::new(),
         joint: None,
         structure: None,
@@ -263,14 +263,14 @@ fn structure(args: &InputArgs) -> Result<Result<Case, Vec<Finding>>, Failure> {
     };
     // Faults of shape do not keep anybody from asking whether it is rigid.
     findings.retain(|f| f.severity != crate::diagnostic::Severity::Error);
-    let question = match job::question(&structure, &template) {
-        Ok(question) => question,
+    let criteria = match job::criteria(&structure, &template) {
+        Ok(criteria) => criteria,
         Err(fact) => return Ok(Err(vec![fact.into()])),
     };
     let joint = args.joint;
     let (model, structure, fingerprint) = job::model(&structure, joint, &template);
     let structure = Some(structure);
-    Ok(Ok(Case { model, fingerprint, question, findings, joint: Some(joint), structure }))
+    Ok(Ok(Case { model, fingerprint, criteria, findings, joint: Some(joint), structure }))
 }
 
 /// The verdict and the cures in words.

@@ -5,7 +5,7 @@ use crate::job::Interrupted;
 use crate::joint::Joint;
 use crate::parts;
 use crate::rigidity::{
-    self, Cure, FEW_STEPS, Fingerprint, MOST_STEPS, Model, Pairing, Question,
+    self, Criteria, Cure, FEW_STEPS, Fingerprint, MOST_STEPS, Model, Pairing,
     RigidityFinding, Stopped, SwayLimit, Verdict,
 };
 use crate::setting::{fit, tolerance};
@@ -60,14 +60,14 @@ pub fn with_remedies(
         return Ok(template);
     };
     // What cannot be asked is said when the job is judged.
-    let Ok(question) = question(&structure, &template) else { return Ok(template) };
+    let Ok(criteria) = criteria(&structure, &template) else { return Ok(template) };
     for _ in 0..ROUNDS {
         let (model, _, fingerprint) = model(&structure, Joint::Hinge, &template);
-        let verdict = rigidity::judge(&model, &question, fingerprint, watch);
+        let verdict = rigidity::judge(&model, &criteria, fingerprint, watch);
         if verdict.map_err(|Stopped| Interrupted)?.passes() {
             break;
         }
-        let remedies = rigidity::remedies(&model, &question, MOST_STEPS, watch);
+        let remedies = rigidity::remedies(&model, &criteria, MOST_STEPS, watch);
         let remedies = remedies.map_err(|Stopped| Interrupted)?;
         let welds = remedies.iter().filter(|remedy| matches!(remedy.cure, Cure::Weld(_)));
         let known = &template.joint.hub_nodes;
@@ -91,16 +91,16 @@ pub(super) fn has_hub(joint: Joint, template: &Template, node: usize) -> bool {
 ///
 /// # Errors
 /// A limit that cannot be read.
-pub fn question(
+pub fn criteria(
     structure: &Structure,
     template: &Template,
-) -> Result<Question, RigidityFinding> {
+) -> Result<Criteria, RigidityFinding> {
     let lengths = structure.fins().iter().map(|&[i, j]| {
         (structure.nodes()[i].position - structure.nodes()[j].position).norm()
     });
     let mean = lengths.sum::<f64>() / structure.fins().len().max(1) as f64;
     let play = template.gate.play_mm.unwrap_or(template.material.clearance_mm / 2.0);
-    Ok(Question {
+    Ok(Criteria {
         play_mm: play.max(0.0),
         limit: template.gate.sway_limit.parse::<SwayLimit>()?,
         modes: 6,
@@ -112,27 +112,27 @@ pub fn question(
 /// Up to this many bodies a refusal comes with the first steps of what would help.
 const CURABLE: usize = 2000;
 
-/// Judges a structure with a joint; the question is the template's unless one is given.
+/// Judges a structure with a joint; the criteria are the template's unless one is given.
 ///
 /// # Errors
 /// A limit that cannot be read; within, [`Stopped`] if the watch stopped the work.
 pub fn verdict(
     structure: &Structure,
     joint: Joint,
-    (template, asked): (&Template, Option<&Question>),
+    (template, asked): (&Template, Option<&Criteria>),
     watch: &mut dyn Watch,
 ) -> Result<Result<Verdict, Stopped>, RigidityFinding> {
-    let question = match asked {
-        Some(question) => *question,
-        None => question(structure, template)?,
+    let criteria = match asked {
+        Some(criteria) => *criteria,
+        None => criteria(structure, template)?,
     };
     let (model, _, fingerprint) = model(structure, joint, template);
-    let verdict = rigidity::judge(&model, &question, fingerprint, watch);
+    let verdict = rigidity::judge(&model, &criteria, fingerprint, watch);
     Ok(verdict.and_then(|verdict| {
         if verdict.passes() || model.bodies.len() > CURABLE {
             return Ok(verdict);
         }
-        let remedies = rigidity::remedies(&model, &question, FEW_STEPS, watch)?;
+        let remedies = rigidity::remedies(&model, &criteria, FEW_STEPS, watch)?;
         Ok(verdict.with_remedies(remedies))
     }))
 }

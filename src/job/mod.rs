@@ -2,7 +2,7 @@
 
 mod judge;
 
-pub use judge::{model, question, verdict, with_remedies};
+pub use judge::{criteria, model, verdict, with_remedies};
 
 use crate::diagnostic::Finding;
 use crate::gate::{self, Approved, Judged, Shut};

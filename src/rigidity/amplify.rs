@@ -1,13 +1,13 @@
 //! How far a node can sway for a play, bracketed from both sides.
 //!
-//! Every point of a sleeve may leave its pin by the play `p`, in any direction. The sway of
+//! Every point of a contact may leave its pin by the play `p`, in any direction. The sway of
 //! a node along `d` is then `α p`, where
 //!
 //! * any motion gives a lower bound of α: the node's way over the largest deviation;
 //! * any contact forces in equilibrium with a unit load on the node along `d` give an upper
 //!   bound: the sum of their sizes (conic duality; notes §3.3).
 //!
-//! One solve with the factor of the resistance gives both. Reweighting the sleeves by
+//! One solve with the factor of the resistance gives both. Reweighting the contacts by
 //! their forces and solving again (IRLS) draws the bounds together.
 
 use crate::geometry::Vector3;
@@ -21,8 +21,8 @@ use crate::tolerance::{BRACKET_WIDTH, FORCE_BALANCE, LEAST_WEIGHT};
 /// best-fitting rigid motion.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Load {
-    /// The knot whose node is loaded.
-    pub(super) knot: usize,
+    /// The coupling whose node is loaded.
+    pub(super) coupling: usize,
     /// Unit vector.
     pub(super) direction: Vector3,
     /// One number per unknown.
@@ -34,11 +34,11 @@ impl Load {
     pub(super) fn new(
         system: &System,
         rigid: &[Vec<f64>],
-        knot: usize,
+        coupling: usize,
         direction: Vector3,
     ) -> Option<Self> {
-        let at = system.knot_at[knot]?;
-        let share = system.model.knots[knot].share;
+        let at = system.coupling_at[coupling]?;
+        let share = system.model.couplings[coupling].share;
         let mut forces = vec![0.0; system.unknowns()];
         for k in 0..3 {
             forces[at + k] = (1.0 - share) * direction[k];
@@ -49,7 +49,7 @@ impl Load {
                 (at..at + 6).map(|k| motion[k] * load_at(share, direction, k - at)).sum();
             forces.iter_mut().zip(motion).for_each(|(f, r)| *f -= part * r);
         }
-        Some(Self { knot, direction, forces })
+        Some(Self { coupling, direction, forces })
     }
 }
 
@@ -87,9 +87,9 @@ pub(super) struct Proof {
     pub(super) bracket: Bracket,
     /// Velocities of the unknowns in the motion of the lower bound, deviations at most 1.
     pub(super) motion: Vec<f64>,
-    /// Deviations of the sleeves in that motion, three numbers each.
+    /// Deviations of the contacts in that motion, three numbers each.
     pub(super) off: Vec<f64>,
-    /// Contact forces of the upper bound, three numbers per sleeve.
+    /// Contact forces of the upper bound, three numbers per contact.
     pub(super) forces: Vec<f64>,
 }
 
@@ -104,7 +104,7 @@ pub(super) struct Bracketing<'a> {
     floor: f64,
 }
 
-/// Least weight of a sleeve in the first round, halved each round.
+/// Least weight of a contact in the first round, halved each round.
 const FIRST_FLOOR: f64 = 0.1;
 
 impl<'a> Bracketing<'a> {
@@ -122,7 +122,7 @@ impl<'a> Bracketing<'a> {
         if count > 0 {
             factor.solve(&mut x, count);
         }
-        let sleeves = system.sleeve[system.sleeve.len() - 1];
+        let contacts = system.first_contact[system.first_contact.len() - 1];
         let begun = loads.into_iter().enumerate().map(|(k, load)| {
             let y: Vec<f64> = x.chunks_exact(count).map(|row| row[k]).collect();
             let proof = Proof {
@@ -131,7 +131,7 @@ impl<'a> Bracketing<'a> {
                 off: Vec::new(),
                 forces: Vec::new(),
             };
-            let (weights, floor) = (vec![1.0; sleeves], FIRST_FLOOR);
+            let (weights, floor) = (vec![1.0; contacts], FIRST_FLOOR);
             let mut begun = Self { system, load, proof, weights, floor };
             begun.learn(&y, &system.deviations(&y));
             begun
@@ -151,7 +151,7 @@ impl<'a> Bracketing<'a> {
         Ok(())
     }
 
-    /// Bounds and the next weights from a solution and what the sleeves deviate in it.
+    /// Bounds and the next weights from a solution and what the contacts deviate in it.
     fn learn(&mut self, y: &[f64], off: &[f64]) {
         let sizes: Vec<f64> = off
             .chunks_exact(3)

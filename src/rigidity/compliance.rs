@@ -7,7 +7,7 @@ use crate::watch::Watch;
 use faer::MatRef;
 use nalgebra::{Matrix3, Matrix3x6, Matrix6};
 
-/// Compliance of every free pin's node, the 3 × 3 block of `K⁻¹` seen from there: knot and
+/// Compliance of every free pin's node, the 3 × 3 block of `K⁻¹` seen from there: coupling and
 /// block. On a whole that floats, of loads and motions without their rigid part.
 ///
 /// # Errors
@@ -23,14 +23,14 @@ pub(super) fn compliances(
     };
     let blocks = factor.inverse_blocks(&take, watch)?;
     let rigid = Rigid::new(system, factor, rigid);
-    let of = |(knot, group): (usize, &Option<u32>)| {
-        let at = system.knot_at[knot]?;
-        let pin = &system.model.knots[knot];
+    let of = |(coupling, group): (usize, &Option<u32>)| {
+        let at = system.coupling_at[coupling]?;
+        let pin = &system.model.couplings[coupling];
         let block = blocks[system.symbolic.place[(*group)? as usize]]?;
         let seen = Seen { at, share: pin.share };
-        Some((knot, seen.block(&block) - rigid.part(seen))).filter(|_| pin.is_pin())
+        Some((coupling, seen.block(&block) - rigid.part(seen))).filter(|_| pin.is_pin())
     };
-    Ok(system.knot_group.iter().enumerate().filter_map(of).collect())
+    Ok(system.coupling_group.iter().enumerate().filter_map(of).collect())
 }
 
 /// The node of a pin between the pin's ends, whose first unknown is `at`.

@@ -2,7 +2,7 @@
 
 use crate::geometry::{Point3, Vector3};
 use crate::rigidity::finding::RigidityFinding;
-use crate::rigidity::model::{Body, Knot, Model};
+use crate::rigidity::model::{Coupling, Model, RigidBody};
 use serde::Deserialize;
 use std::collections::BTreeSet;
 
@@ -42,16 +42,16 @@ pub fn read_linkage(text: &str) -> Result<Model, Vec<RigidityFinding>> {
     if !findings.is_empty() {
         return Err(findings);
     }
-    let knot = |(pin, (place, axis, bodies)): (usize, Given)| {
+    let coupling = |(pin, (place, axis, bodies)): (usize, Given)| {
         let half = Vector3::from(axis).normalize() * file.r;
         let place = Point3::from(place);
         let mut bodies = bodies;
         bodies.sort_unstable();
         let points = vec![place - half, place + half];
-        Knot { node: pin, points, bodies, held: false, share: 0.5 }
+        Coupling { node: pin, points, bodies, held: false, share: 0.5 }
     };
-    let knots = file.pins.into_iter().enumerate().map(knot).collect();
-    Ok(Model::new((0..file.bodies).map(Body::Link).collect(), knots))
+    let couplings = file.pins.into_iter().enumerate().map(coupling).collect();
+    Ok(Model::new((0..file.bodies).map(RigidBody::Link).collect(), couplings))
 }
 
 fn fault(

@@ -1,9 +1,10 @@
 //! The paper's matrix `A` and its smallest singular values, dense and sparse.
 
 use crate::geometry::Vector3;
+use crate::rigidity::criteria::Pairing;
 use crate::rigidity::model::Model;
 use crate::rigidity::motions::Twists;
-use crate::rigidity::paper::{Pairing, free_rank, velocity};
+use crate::rigidity::paper::{free_rank, velocity};
 use crate::rigidity::system::System;
 use crate::sparse::{Block, Factor, Halt, Operator, largest, map_range, worthwhile};
 use crate::watch::Watch;
@@ -32,12 +33,12 @@ impl Matrix<'_> {
     /// `A x`.
     fn apply(&self, twists: &[[f64; 6]]) -> Vec<f64> {
         let mut all = Vec::new();
-        for knot in &self.model.knots {
-            for difference in self.pairing.differences(knot.bodies.len()) {
-                for &q in &knot.points {
+        for coupling in &self.model.couplings {
+            for difference in self.pairing.differences(coupling.bodies.len()) {
+                for &q in &coupling.points {
                     let terms = difference.iter();
                     let off: Vector3 = terms
-                        .map(|(i, s)| velocity(&twists[knot.bodies[*i]], q) * *s)
+                        .map(|(i, s)| velocity(&twists[coupling.bodies[*i]], q) * *s)
                         .sum();
                     all.extend_from_slice(off.as_slice());
                 }
@@ -50,13 +51,13 @@ impl Matrix<'_> {
     fn transposed(&self, values: &[f64]) -> Vec<f64> {
         let mut x = vec![0.0; self.size() + 6];
         let mut values = values.chunks_exact(3);
-        for knot in &self.model.knots {
-            for difference in self.pairing.differences(knot.bodies.len()) {
-                for (q, v) in knot.points.iter().zip(&mut values) {
+        for coupling in &self.model.couplings {
+            for difference in self.pairing.differences(coupling.bodies.len()) {
+                for (q, v) in coupling.points.iter().zip(&mut values) {
                     let v = Vector3::new(v[0], v[1], v[2]);
                     let turn = q.coords.cross(&v);
                     for (i, share) in &difference {
-                        let at = 6 * knot.bodies[*i];
+                        let at = 6 * coupling.bodies[*i];
                         for k in 0..3 {
                             x[at + k] += share * turn[k];
                             x[at + 3 + k] += share * v[k];
@@ -163,16 +164,16 @@ impl PinInverse<'_> {
     /// `Q z` on the pins, and `z = Tᵀ x` of each body but the one that is held.
     fn push(&self, x: &[f64]) -> (Vec<f64>, Vec<[f64; 6]>) {
         let system = self.system;
-        let mut sleeves = vec![0.0; 3 * system.sleeve[1]];
+        let mut contacts = vec![0.0; 3 * system.first_contact[1]];
         let (x, _) = x.as_chunks::<6>();
         let bodies = x.iter().zip(&self.twists[1..]).zip(&system.motions[1..]);
         let all = bodies.map(|((x, twists), motions)| {
             let z = twists.map(|twist| twist.iter().zip(x).map(|(t, x)| t * x).sum());
-            let from = sleeves.len();
-            sleeves.resize(from + motions.rows, 0.0);
+            let from = contacts.len();
+            contacts.resize(from + motions.rows, 0.0);
             for (j, z) in z.iter().enumerate().take(motions.rank) {
                 let column = motions.column(j).iter();
-                sleeves[from..]
+                contacts[from..]
                     .iter_mut()
                     .zip(column)
                     .for_each(|(s, q): (_, &f64)| *s += z * q);
@@ -180,7 +181,7 @@ impl PinInverse<'_> {
             z
         });
         let all = all.collect();
-        (system.scatter(&sleeves), all)
+        (system.scatter(&contacts), all)
     }
 
     /// `T (z + Qᵀ y)`.

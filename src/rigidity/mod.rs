@@ -12,6 +12,7 @@
 
 mod amplify;
 mod compliance;
+mod criteria;
 mod finding;
 mod json;
 mod linkage;
@@ -31,14 +32,15 @@ mod tests;
 mod verdict;
 
 pub use amplify::Bracket;
+pub use criteria::{Criteria, Pairing, SwayLimit};
 pub use finding::RigidityFinding;
 pub use linkage::read_linkage;
-pub use model::{Body, Knot, Model};
-pub use paper::{Discrepancy, MOST_PAIRED, Motion, Pairing, Paper};
+pub use model::{Coupling, Model, RigidBody};
+pub use paper::{Discrepancy, MOST_PAIRED, Motion, Paper};
 pub use picture::{Look, picture};
 pub use remedy::{Cure, FEW_STEPS, MOST_STEPS, Remedy, remedies};
 pub use sway::Sway;
-/// Rms deviation of sleeves over rms motion in the `wanted` motions that meet least
+/// Rms deviation of contacts over rms motion in the `wanted` motions that meet least
 /// resistance, ascending; `fixed` is a body to hold beside the held nodes. `None` if a
 /// motion meets no resistance at all and the factorisation fails on it.
 pub fn least_resisted(
@@ -51,4 +53,4 @@ pub fn least_resisted(
     spectrum::least(&system, wanted, &()).ok().map(|modes| modes.sigma)
 }
 
-pub use verdict::{Fingerprint, Outcome, Question, Stopped, SwayLimit, Verdict, judge};
+pub use verdict::{Fingerprint, Outcome, Stopped, Verdict, judge};

@@ -2,7 +2,7 @@
 //!
 //! A *pin* is a node axis, given by its two ends, with the bodies that meet on it. In hubs
 //! each fin also shares a third point, off the axis, with its hub: a *slot*. Both are
-//! [`Knot`]s. Notes: `docs/rigidity.md`.
+//! [`Coupling`]s. Notes: `docs/rigidity.md`.
 
 use crate::geometry::{Point3, Vector3};
 use crate::structure::Structure;
@@ -10,7 +10,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 /// A rigid body of a model.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Body {
+pub enum RigidBody {
     /// A strip, by its number.
     Strip(usize),
     /// A fin, by its nodes.
@@ -21,7 +21,7 @@ pub enum Body {
     Link(usize),
 }
 
-impl std::fmt::Display for Body {
+impl std::fmt::Display for RigidBody {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         match self {
             Self::Strip(strip) => write!(f, "strip {strip}"),
@@ -34,7 +34,7 @@ impl std::fmt::Display for Body {
 
 /// Points that move together with every body on it, up to the play.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Knot {
+pub struct Coupling {
     /// The node it is at.
     pub node: usize,
     /// Two points, the lower and the upper end of the axis, or the one point of a slot; mm.
@@ -47,7 +47,7 @@ pub struct Knot {
     pub share: f64,
 }
 
-impl Knot {
+impl Coupling {
     /// Whether it is a node axis.
     pub fn is_pin(&self) -> bool {
         self.points.len() == 2
@@ -68,76 +68,78 @@ impl Knot {
     }
 }
 
-/// Bodies and the knots between them.
+/// Bodies and the couplings between them.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Model {
     /// What each body is.
-    pub bodies: Vec<Body>,
+    pub bodies: Vec<RigidBody>,
     /// Pins first, in the order of their nodes, then slots.
-    pub knots: Vec<Knot>,
-    /// The knots of each body, ascending.
-    pub touches: Vec<Vec<usize>>,
+    pub couplings: Vec<Coupling>,
+    /// The couplings of each body, ascending.
+    pub incidence: Vec<Vec<usize>>,
 }
 
 impl Model {
-    /// Puts bodies and knots together.
-    pub fn new(bodies: Vec<Body>, knots: Vec<Knot>) -> Self {
-        let mut touches = vec![Vec::new(); bodies.len()];
-        for (k, knot) in knots.iter().enumerate() {
-            for &body in &knot.bodies {
-                touches[body].push(k);
+    /// Puts bodies and couplings together.
+    pub fn new(bodies: Vec<RigidBody>, couplings: Vec<Coupling>) -> Self {
+        let mut incidence = vec![Vec::new(); bodies.len()];
+        for (k, coupling) in couplings.iter().enumerate() {
+            for &body in &coupling.bodies {
+                incidence[body].push(k);
             }
         }
-        Self { bodies, knots, touches }
+        Self { bodies, couplings, incidence }
     }
 
     /// A structure of strips. `unheld` are ends, as strip and node, that nothing holds; they
-    /// count as no incidence. On the nodes that `levers` names all strips end in a hub.
+    /// count as no incidence. On the nodes that `moment_arms` names all strips end in a hub.
     pub fn of_strips(
         structure: &Structure,
         unheld: &BTreeSet<(usize, usize)>,
-        levers: &BTreeMap<usize, f64>,
+        moment_arms: &BTreeMap<usize, f64>,
     ) -> Self {
         let (bodies, on) = strips(structure, unheld);
         let fins = structure.strips().iter().enumerate().flat_map(|(index, strip)| {
             strip.fins().map(move |[i, j]| ([i.min(j), i.max(j)], index))
         });
-        Self::in_hubs(structure, (bodies, on), &fins.collect(), levers)
+        Self::in_hubs(structure, bodies, on, &fins.collect(), moment_arms)
     }
 
-    /// A structure of single fins: in hubs on the nodes that `levers` names, on rods
-    /// elsewhere. A lever, mm, is how far from the axis the slot holds its fin; it is never
+    /// A structure of single fins: in hubs on the nodes that `moment_arms` names, on rods
+    /// elsewhere. A moment_arm, mm, is how far from the axis the slot holds its fin; it is never
     /// taken for more than a third of the fin.
-    pub fn of_fins(structure: &Structure, levers: &BTreeMap<usize, f64>) -> Self {
+    pub fn of_fins(structure: &Structure, moment_arms: &BTreeMap<usize, f64>) -> Self {
         let fins = structure.fins().iter().enumerate().map(|(index, fin)| (*fin, index));
-        Self::in_hubs(structure, self::fins(structure), &fins.collect(), levers)
+        let (bodies, on) = self::fins(structure);
+        Self::in_hubs(structure, bodies, on, &fins.collect(), moment_arms)
     }
 
-    /// Bodies of which each carries some fins, in hubs on the nodes that have levers.
+    /// Bodies of which each carries some fins, in hubs on the nodes that have moment_arms.
     fn in_hubs(
         structure: &Structure,
-        (mut bodies, mut on): (Vec<Body>, On),
+        mut bodies: Vec<RigidBody>,
+        mut on: On,
         carrier: &BTreeMap<[usize; 2], usize>,
-        levers: &BTreeMap<usize, f64>,
+        moment_arms: &BTreeMap<usize, f64>,
     ) -> Self {
         let mut slots = Vec::new();
-        for (&node, lever) in levers {
+        for (&node, moment_arm) in moment_arms {
             let hub = bodies.len();
-            bodies.push(Body::Hub(node));
+            bodies.push(RigidBody::Hub(node));
             on.entry(node).or_default().push(hub);
-            slots.extend(hub_slots(structure, (node, *lever), carrier, hub));
+            slots.extend(hub_slots(structure, node, *moment_arm, carrier, hub));
         }
         Self::joined(structure, bodies, on, slots)
     }
 
     fn joined(
         structure: &Structure,
-        bodies: Vec<Body>,
+        bodies: Vec<RigidBody>,
         on: On,
-        slots: Vec<Knot>,
+        slots: Vec<Coupling>,
     ) -> Self {
         let fixed: BTreeSet<usize> = structure.fixed().iter().copied().collect();
-        let mut knots = Vec::new();
+        let mut couplings = Vec::new();
         for (node, bodies) in on {
             let held = fixed.contains(&node);
             // A node with one body only is no pin, unless the ground is the other one.
@@ -146,63 +148,67 @@ impl Model {
             }
             let at = &structure.nodes()[node];
             let (points, share) = (vec![at.bottom(), at.top()], at.below / at.height());
-            knots.push(Knot { node, points, bodies, held, share });
+            couplings.push(Coupling { node, points, bodies, held, share });
         }
-        knots.extend(slots);
-        Self::new(bodies, knots)
+        couplings.extend(slots);
+        Self::new(bodies, couplings)
     }
 
-    /// The points of a body, in the order of its knots.
+    /// The points of a body, in the order of its couplings.
     pub fn points(&self, body: usize) -> Vec<Point3> {
         self.points_of(body).collect()
     }
 
     /// The same, one by one.
     pub(super) fn points_of(&self, body: usize) -> impl Iterator<Item = Point3> + '_ {
-        let knots = self.touches[body].iter();
-        knots.flat_map(|&k| self.knots[k].points.iter().copied())
+        let couplings = self.incidence[body].iter();
+        couplings.flat_map(|&k| self.couplings[k].points.iter().copied())
     }
 
     /// How many node axes there are.
     pub fn pins(&self) -> usize {
-        self.knots.iter().filter(|knot| knot.is_pin()).count()
+        self.couplings.iter().filter(|coupling| coupling.is_pin()).count()
     }
 
     /// Whether the ground holds anything.
     pub fn is_supported(&self) -> bool {
-        self.knots.iter().any(|knot| knot.held)
+        self.couplings.iter().any(|coupling| coupling.held)
     }
 
     /// The pin of a node, if it is one.
     pub fn pin(&self, node: usize) -> Option<usize> {
-        self.knots.iter().position(|knot| knot.is_pin() && knot.node == node)
+        self.couplings
+            .iter()
+            .position(|coupling| coupling.is_pin() && coupling.node == node)
     }
 
     /// The same with two bodies of a pin made one as far as turning about its axis goes, by a
     /// slot that both share.
     #[must_use]
     pub fn welded(mut self, pin: usize, bodies: [usize; 2]) -> Self {
-        let slot = self.knots[pin].slot_of(bodies.to_vec());
-        self.knots.push(slot);
-        Self::new(self.bodies, self.knots)
+        let slot = self.couplings[pin].slot_of(bodies.to_vec());
+        self.couplings.push(slot);
+        Self::new(self.bodies, self.couplings)
     }
 
     /// The same with all bodies of every pin made one in that way.
     #[must_use]
     pub fn stiff(mut self) -> Self {
-        let joints =
-            self.knots.iter().filter(|knot| knot.is_pin() && knot.bodies.len() > 1);
-        let slots: Vec<Knot> =
+        let joints = self
+            .couplings
+            .iter()
+            .filter(|coupling| coupling.is_pin() && coupling.bodies.len() > 1);
+        let slots: Vec<Coupling> =
             joints.map(|pin| pin.slot_of(pin.bodies.clone())).collect();
-        self.knots.extend(slots);
-        Self::new(self.bodies, self.knots)
+        self.couplings.extend(slots);
+        Self::new(self.bodies, self.couplings)
     }
 
     /// The same with a node held by the ground.
     #[must_use]
     pub fn with_held(mut self, node: usize) -> Self {
-        for knot in &mut self.knots {
-            knot.held |= knot.node == node && knot.is_pin();
+        for coupling in &mut self.couplings {
+            coupling.held |= coupling.node == node && coupling.is_pin();
         }
         self
     }
@@ -218,7 +224,10 @@ fn across(axis: Vector3) -> Vector3 {
 
 type On = BTreeMap<usize, Vec<usize>>;
 
-fn strips(structure: &Structure, unheld: &BTreeSet<(usize, usize)>) -> (Vec<Body>, On) {
+fn strips(
+    structure: &Structure,
+    unheld: &BTreeSet<(usize, usize)>,
+) -> (Vec<RigidBody>, On) {
     let mut on = On::new();
     for (index, strip) in structure.strips().iter().enumerate() {
         for &node in &strip.nodes {
@@ -227,33 +236,34 @@ fn strips(structure: &Structure, unheld: &BTreeSet<(usize, usize)>) -> (Vec<Body
             }
         }
     }
-    ((0..structure.strips().len()).map(Body::Strip).collect(), on)
+    ((0..structure.strips().len()).map(RigidBody::Strip).collect(), on)
 }
 
-fn fins(structure: &Structure) -> (Vec<Body>, On) {
+fn fins(structure: &Structure) -> (Vec<RigidBody>, On) {
     let mut on = On::new();
     for (index, fin) in structure.fins().iter().enumerate() {
         for &node in fin {
             on.entry(node).or_default().push(index);
         }
     }
-    (structure.fins().iter().copied().map(Body::Fin).collect(), on)
+    (structure.fins().iter().copied().map(RigidBody::Fin).collect(), on)
 }
 
 /// A slot in a hub for each fin of its node.
 fn hub_slots(
     structure: &Structure,
-    (node, lever): (usize, f64),
+    node: usize,
+    moment_arm: f64,
     carrier: &BTreeMap<[usize; 2], usize>,
     hub: usize,
-) -> Vec<Knot> {
+) -> Vec<Coupling> {
     let at = &structure.nodes()[node];
     let slot = |to: usize| {
         let body = *carrier.get(&[node.min(to), node.max(to)])?;
         let length = (structure.nodes()[to].position - at.position).norm();
-        let out = lever.min(length / 3.0);
+        let out = moment_arm.min(length / 3.0);
         let points = vec![at.position + structure.direction(node, to) * out];
-        Some(Knot { node, points, bodies: vec![body, hub], held: false, share: 0.0 })
+        Some(Coupling { node, points, bodies: vec![body, hub], held: false, share: 0.0 })
     };
     let mut ends: Vec<usize> = at.arms.iter().map(|arm| arm.to).collect();
     // In the order of the fins, whichever way the node looks at them.

@@ -8,62 +8,13 @@
 //! (notes §1.4, §3.1).
 
 use crate::geometry::{Point3, Vector3};
+use crate::rigidity::criteria::{Criteria, Pairing};
 use crate::rigidity::matrix::Matrix;
 use crate::rigidity::model::Model;
 use crate::rigidity::motions::Motions;
 use crate::sparse::Halt;
 use crate::tolerance::STANDS_STILL;
 use crate::watch::Watch;
-
-/// Which bodies on one axis are compared with which.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum Pairing {
-    /// Each with the mean of all: the rod of the hinge.
-    #[default]
-    Pin,
-    /// Each with the next.
-    Chain,
-    /// Each with the first.
-    Star,
-    /// Each with the next, the last with the first.
-    Cyclic,
-    /// Each with every other.
-    All,
-}
-
-impl Pairing {
-    /// As it is typed and written.
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::Pin => "pin",
-            Self::Chain => "chain",
-            Self::Star => "star",
-            Self::Cyclic => "cyclic",
-            Self::All => "all",
-        }
-    }
-
-    /// Differences to take among `count` bodies: their shares in each.
-    pub(super) fn differences(self, count: usize) -> Vec<Vec<(usize, f64)>> {
-        let pair = |i: usize, j: usize| vec![(i, 1.0), (j, -1.0)];
-        match self {
-            _ if count < 2 => Vec::new(),
-            Self::Pin => {
-                let mean = 1.0 / count as f64;
-                let share = |i: usize, j: usize| if i == j { 1.0 - mean } else { -mean };
-                let row = |i: usize| (0..count).map(|j| (j, share(i, j))).collect();
-                (0..count).map(row).collect()
-            }
-            Self::Chain => (1..count).map(|j| pair(j - 1, j)).collect(),
-            Self::Star => (1..count).map(|j| pair(0, j)).collect(),
-            Self::Cyclic => (0..count).map(|j| pair(j, (j + 1) % count)).collect(),
-            Self::All => {
-                let firsts = 0..count;
-                firsts.flat_map(|i| (i + 1..count).map(move |j| pair(i, j))).collect()
-            }
-        }
-    }
-}
 
 /// How far two bodies part at a hinge.
 #[derive(Debug, Clone, PartialEq)]
@@ -115,11 +66,11 @@ pub const MOST_PAIRED: usize = 100;
 /// [`Singular`] if the factorisation fails.
 pub(super) fn paper(
     model: &Model,
-    (pairing, scale): (Pairing, f64),
-    wanted: usize,
+    criteria: &Criteria,
     threads: usize,
     watch: &dyn Watch,
 ) -> Result<Paper, Halt> {
+    let Criteria { pairing, scale, modes: wanted, .. } = *criteria;
     let free = scaled(model, scale);
     let matrix = Matrix { model: &free, pairing };
     let (mut sigma, twists, largest) =
@@ -145,9 +96,9 @@ pub(super) fn paper(
 /// The model with other lengths and no supports.
 fn scaled(model: &Model, scale: f64) -> Model {
     let mut free = model.clone();
-    for knot in &mut free.knots {
-        knot.held = false;
-        knot.points.iter_mut().for_each(|p| *p *= scale);
+    for coupling in &mut free.couplings {
+        coupling.held = false;
+        coupling.points.iter_mut().for_each(|p| *p *= scale);
     }
     free
 }
@@ -168,16 +119,16 @@ fn far_node(model: &Model) -> Option<usize> {
     let points = model.points(0);
     let sum: Vector3 = points.iter().map(|p| p.coords).sum();
     let middle = Point3::from(sum / points.len().max(1) as f64);
-    let pins = (0..model.knots.len()).filter(|&k| model.knots[k].is_pin());
-    let off = |k: &usize| (model.knots[*k].place() - middle).norm_squared();
+    let pins = (0..model.couplings.len()).filter(|&k| model.couplings[k].is_pin());
+    let off = |k: &usize| (model.couplings[*k].place() - middle).norm_squared();
     pins.max_by(|a, b| off(a).total_cmp(&off(b)))
 }
 
-/// Velocity of the rod of a knot: the mean of its bodies.
-fn rod(model: &Model, knot: usize, twists: &[[f64; 6]]) -> Vector3 {
-    let knot = &model.knots[knot];
-    let all = knot.bodies.iter().map(|&b| velocity(&twists[b], knot.place()));
-    all.sum::<Vector3>() / knot.bodies.len().max(1) as f64
+/// Velocity of the rod of a coupling: the mean of its bodies.
+fn rod(model: &Model, coupling: usize, twists: &[[f64; 6]]) -> Vector3 {
+    let coupling = &model.couplings[coupling];
+    let all = coupling.bodies.iter().map(|&b| velocity(&twists[b], coupling.place()));
+    all.sum::<Vector3>() / coupling.bodies.len().max(1) as f64
 }
 
 /// A motion scaled so that the far node, or if it stands still the one that moves most,
@@ -188,7 +139,7 @@ fn normalised(
     mut twists: Vec<[f64; 6]>,
 ) -> Vec<[f64; 6]> {
     let speeds: Vec<f64> =
-        (0..model.knots.len()).map(|k| rod(model, k, &twists).norm()).collect();
+        (0..model.couplings.len()).map(|k| rod(model, k, &twists).norm()).collect();
     let most = speeds.iter().copied().fold(0.0, f64::max);
     let speed = far.map_or(most, |far| speeds[far]);
     let speed = if speed > STANDS_STILL * most { speed } else { most };
@@ -212,15 +163,15 @@ impl Paper {
 
 fn discrepancies(model: &Model, motion: &Motion) -> Vec<Discrepancy> {
     let mut all = Vec::new();
-    for knot in &model.knots {
-        for (k, &a) in knot.bodies.iter().enumerate() {
-            for &b in &knot.bodies[k + 1..] {
+    for coupling in &model.couplings {
+        for (k, &a) in coupling.bodies.iter().enumerate() {
+            for &b in &coupling.bodies[k + 1..] {
                 let part = |&q: &Point3| {
                     let [x, y] = [a, b].map(|body| velocity(&motion.twists[body], q));
                     (x - y).norm()
                 };
-                let value = knot.points.iter().map(part).fold(0.0, f64::max);
-                all.push(Discrepancy { node: knot.node, bodies: [a, b], value });
+                let value = coupling.points.iter().map(part).fold(0.0, f64::max);
+                all.push(Discrepancy { node: coupling.node, bodies: [a, b], value });
             }
         }
     }

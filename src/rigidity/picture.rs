@@ -2,7 +2,7 @@
 //! that the hinges resist least as a displaced ghost.
 
 use crate::geometry::{Point3, Vector3, trig};
-use crate::rigidity::model::{Body, Model};
+use crate::rigidity::model::{Model, RigidBody};
 use crate::rigidity::paper::{Paper, velocity};
 use crate::structure::Structure;
 use std::collections::BTreeMap;
@@ -119,14 +119,14 @@ fn bodies_of_fins(structure: &Structure, model: &Model) -> Vec<Option<usize>> {
     let mut of = BTreeMap::new();
     for (index, body) in model.bodies.iter().enumerate() {
         match body {
-            Body::Fin(fin) => {
+            RigidBody::Fin(fin) => {
                 of.insert(*fin, index);
             }
-            Body::Strip(strip) => {
+            RigidBody::Strip(strip) => {
                 let fins = structure.strips()[*strip].fins();
                 of.extend(fins.map(|[i, j]| ([i.min(j), i.max(j)], index)));
             }
-            Body::Hub(_) | Body::Link(_) => {}
+            RigidBody::Hub(_) | RigidBody::Link(_) => {}
         }
     }
     structure.fins().iter().map(|fin| of.get(fin).copied()).collect()

@@ -5,19 +5,20 @@
 //! are none, in the least resisted ones weighted by their compliance (notes §3.5).
 
 use crate::geometry::Vector3;
+use crate::rigidity::criteria::Criteria;
 use crate::rigidity::mobility::mobility;
-use crate::rigidity::model::{Body, Model};
+use crate::rigidity::model::{Model, RigidBody};
 use crate::rigidity::motions::Twists;
 use crate::rigidity::spectrum::least;
 use crate::rigidity::sway::{self, Sway, node_velocity};
 use crate::rigidity::system::System;
-use crate::rigidity::verdict::{Question, Stopped};
+use crate::rigidity::verdict::Stopped;
 use crate::sparse::Halt;
 use crate::watch::Watch;
 use std::collections::BTreeSet;
 
 /// What is done in one step.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Cure {
     /// Two bodies are made one at a node: by a hub, or glue.
     Weld([usize; 2]),
@@ -53,26 +54,36 @@ const MODES: usize = 10;
 /// [`Stopped`] if the watch stopped the work.
 pub fn remedies(
     model: &Model,
-    question: &Question,
+    criteria: &Criteria,
     most: usize,
     watch: &mut dyn Watch,
 ) -> Result<Vec<Remedy>, Stopped> {
-    let mut all = course(model, (question, most), &weld, watch)?;
-    all.extend(course(model, (question, most), &fix, watch)?);
+    let mut all = course(model, criteria, most, weld, watch)?;
+    all.extend(course(model, criteria, most, fix, watch)?);
     Ok(all)
 }
 
-/// A choice of the next step from motions with weights, and the model after it.
-type Step =
-    dyn Fn(&System, &[(f64, Vec<f64>)], &BTreeSet<Choice>) -> Option<(Choice, Model)>;
+/// A motion to resist, as velocities of the unknowns.
+struct Resisted {
+    weight: f64,
+    motion: Vec<f64>,
+}
 
-/// A knot, and the bodies to weld there.
-type Choice = (usize, Option<[usize; 2]>);
+/// A cure and the coupling where it is applied.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+struct Choice {
+    coupling: usize,
+    cure: Cure,
+}
+
+/// Chooses the next cure, none of those taken, from the motions to resist.
+type Choose = fn(&System, &[Resisted], &BTreeSet<Choice>) -> Option<Choice>;
 
 fn course(
     model: &Model,
-    (question, most): (&Question, usize),
-    step: &Step,
+    criteria: &Criteria,
+    most: usize,
+    choose: Choose,
     watch: &mut dyn Watch,
 ) -> Result<Vec<Remedy>, Stopped> {
     let threads = std::thread::available_parallelism().map_or(1, usize::from);
@@ -81,44 +92,49 @@ fn course(
     let mut course: Vec<Remedy> = Vec::new();
     while course.len() < most {
         watch.progress("remedies", course.len(), most);
-        let motions = match weighed(&System::new(&model, None, threads), watch) {
+        let system = System::new(&model, None, threads);
+        let resisted = match resisted(&system, watch) {
             Err(Halt::Stopped) => return Err(Stopped),
             Err(Halt::Failed) => break,
-            Ok(motions) => motions,
+            Ok(resisted) => resisted,
         };
-        let system = System::new(&model, None, threads);
-        let Some((choice, better)) = step(&system, &motions, &taken) else { break };
+        let Some(choice) = choose(&system, &resisted, &taken) else { break };
         drop(system);
         taken.insert(choice);
-        let node = better.knots[choice.0].node;
-        let cure = choice.1.map_or(Cure::Fix, Cure::Weld);
-        let remedy = effect(&better, question, (node, cure), watch)?;
+        let node = model.couplings[choice.coupling].node;
+        model = match choice.cure {
+            Cure::Weld(bodies) => model.welded(choice.coupling, bodies),
+            Cure::Fix => model.with_held(node),
+        };
+        let remedy = effect(&model, criteria, node, choice.cure, watch)?;
         let passes = remedy.passes;
         course.push(remedy);
         if passes {
             break;
         }
-        model = better;
     }
     Ok(course)
 }
 
 /// The motions to resist, with their weights.
-fn weighed(system: &System, watch: &dyn Watch) -> Result<Vec<(f64, Vec<f64>)>, Halt> {
+fn resisted(system: &System, watch: &dyn Watch) -> Result<Vec<Resisted>, Halt> {
     let modes = least(system, MODES, watch)?;
-    let exact = mobility(system, &modes, watch)?;
-    if !exact.motions.is_empty() {
-        return Ok(exact.motions.into_iter().map(|y| (1.0, y)).collect());
+    let exact = mobility(system, &modes, watch)?.motions.into_iter();
+    if exact.len() > 0 {
+        return Ok(exact.map(|motion| Resisted { weight: 1.0, motion }).collect());
     }
     let weight = |sigma: &f64| 1.0 / (sigma * sigma).max(f64::MIN_POSITIVE);
-    Ok(modes.sigma.iter().map(weight).zip(modes.motions).collect())
+    let weights = modes.sigma.iter().map(weight);
+    let both = weights.zip(modes.motions);
+    Ok(both.map(|(weight, motion)| Resisted { weight, motion }).collect())
 }
 
 /// What a model does after a step.
 fn effect(
     model: &Model,
-    question: &Question,
-    (node, cure): (usize, Cure),
+    criteria: &Criteria,
+    node: usize,
+    cure: Cure,
     watch: &dyn Watch,
 ) -> Result<Remedy, Stopped> {
     let threads = std::thread::available_parallelism().map_or(1, usize::from);
@@ -136,11 +152,10 @@ fn effect(
         if remedy.mobility_after > 0 {
             return Ok(());
         }
-        let asked = (question.play_mm, question.limit, 0);
-        let sway = sway::worst(&system, &modes, asked, watch)?;
+        let sway = sway::worst(&system, &modes, criteria, 0, watch)?;
         let upper = |of: fn(&Sway) -> f64| sway.as_ref().map_or(0.0, of);
         remedy.amplification_after = Some(upper(|sway| sway.bracket.upper));
-        remedy.passes = upper(|sway| sway.demand.upper) * question.play_mm <= 1.0;
+        remedy.passes = upper(|sway| sway.demand.upper) * criteria.play_mm <= 1.0;
         Ok(())
     };
     // What cannot be solved is no cure.
@@ -150,7 +165,8 @@ fn effect(
 /// How fast a body turns in a motion of the pins.
 fn turning(
     system: &System,
-    (body, twists): (usize, &Twists),
+    body: usize,
+    twists: &Twists,
     y: &[f64],
     values: &mut Vec<f64>,
 ) -> Vector3 {
@@ -162,62 +178,61 @@ fn turning(
 
 fn weld(
     system: &System,
-    motions: &[(f64, Vec<f64>)],
+    resisted: &[Resisted],
     taken: &BTreeSet<Choice>,
-) -> Option<(Choice, Model)> {
-    let model = system.model;
+) -> Option<Choice> {
     let twists = system.twists();
     let mut values = Vec::new();
-    let turns: Vec<Vec<Vector3>> = motions
-        .iter()
-        .map(|(_, y)| {
-            let bodies = twists.iter().enumerate();
-            bodies.map(|body| turning(system, body, y, &mut values)).collect()
-        })
-        .collect();
+    let mut turns = |resisted: &Resisted| -> Vec<Vector3> {
+        let bodies = twists.iter().enumerate();
+        bodies
+            .map(|(body, twists)| {
+                turning(system, body, twists, &resisted.motion, &mut values)
+            })
+            .collect()
+    };
+    let turns: Vec<Vec<Vector3>> = resisted.iter().map(&mut turns).collect();
     let mut best: Option<(f64, Choice)> = None;
-    for (k, knot) in model.knots.iter().enumerate().filter(|(_, knot)| knot.is_pin()) {
-        let axis = knot.points[1] - knot.points[0];
-        for (i, &a) in knot.bodies.iter().enumerate() {
-            for &b in &knot.bodies[i + 1..] {
-                let choice = (k, Some([a, b]));
-                let each = motions.iter().zip(&turns);
-                let gain = |((weight, _), turns): ((&f64, ()), &Vec<Vector3>)| {
-                    weight * (turns[a] - turns[b]).dot(&axis).powi(2)
-                };
-                let gain: f64 = each.map(|((w, _), t)| gain(((w, ()), t))).sum();
+    let couplings = system.model.couplings.iter().enumerate();
+    for (coupling, pin) in couplings.filter(|(_, coupling)| coupling.is_pin()) {
+        let axis = pin.points[1] - pin.points[0];
+        for (i, &a) in pin.bodies.iter().enumerate() {
+            for &b in &pin.bodies[i + 1..] {
+                let choice = Choice { coupling, cure: Cure::Weld([a, b]) };
+                let each = resisted.iter().zip(&turns);
+                let gain = each.map(|(resisted, turns)| {
+                    resisted.weight * (turns[a] - turns[b]).dot(&axis).powi(2)
+                });
+                let gain: f64 = gain.sum();
                 if best.is_none_or(|(most, _)| gain > most) && !taken.contains(&choice) {
                     best = Some((gain, choice));
                 }
             }
         }
     }
-    let (gain, choice) = best?;
-    let (pin, bodies) = (choice.0, choice.1?);
-    (gain > 0.0).then(|| (choice, model.clone().welded(pin, bodies)))
+    best.filter(|(gain, _)| *gain > 0.0).map(|(_, choice)| choice)
 }
 
 fn fix(
     system: &System,
-    motions: &[(f64, Vec<f64>)],
+    resisted: &[Resisted],
     taken: &BTreeSet<Choice>,
-) -> Option<(Choice, Model)> {
-    let model = system.model;
-    let free = |k: &usize| model.knots[*k].is_pin() && system.knot_at[*k].is_some();
+) -> Option<Choice> {
+    let couplings = system.model.couplings.iter().enumerate();
     let free =
-        (0..model.knots.len()).filter(free).filter(|k| !taken.contains(&(*k, None)));
-    let gain = |knot: usize| -> f64 {
-        let each = motions.iter();
-        each.map(|(w, y)| w * node_velocity(system, knot, y).norm_squared()).sum()
+        couplings.filter(|(k, pin)| pin.is_pin() && system.coupling_at[*k].is_some());
+    let choices = free.map(|(coupling, _)| Choice { coupling, cure: Cure::Fix });
+    let gain = |choice: &Choice| -> f64 {
+        let speed = |y: &[f64]| node_velocity(system, choice.coupling, y).norm_squared();
+        resisted.iter().map(|one| one.weight * speed(&one.motion)).sum()
     };
-    let gains = free.map(|knot| (gain(knot), knot));
+    let gains = choices.filter(|choice| !taken.contains(choice)).map(|c| (gain(&c), c));
     let best = gains.max_by(|a, b| a.0.total_cmp(&b.0).then(b.1.cmp(&a.1)))?;
-    let node = model.knots[best.1].node;
-    Some(((best.1, None), model.clone().with_held(node)))
+    Some(best.1)
 }
 
 /// Remedies as lines of text: how many steps of each kind it takes, and the first of them.
-pub(super) fn in_words(remedies: &[Remedy], bodies: &[Body]) -> Vec<String> {
+pub(super) fn in_words(remedies: &[Remedy], bodies: &[RigidBody]) -> Vec<String> {
     let kind = |fix: bool| {
         let steps = remedies.iter().filter(move |r| (r.cure == Cure::Fix) == fix);
         steps.collect::<Vec<_>>()
@@ -242,7 +257,7 @@ pub(super) fn in_words(remedies: &[Remedy], bodies: &[Body]) -> Vec<String> {
 /// Steps that are written out.
 const SAID: usize = 8;
 
-fn said(step: &Remedy, bodies: &[Body]) -> String {
+fn said(step: &Remedy, bodies: &[RigidBody]) -> String {
     let node = step.node;
     let what = match step.cure {
         Cure::Weld([a, b]) => {

@@ -1,11 +1,11 @@
 //! The motions that meet least resistance.
 //!
-//! `K y = λ D y`: the root of λ is the rms deviation of sleeves from their pins over the
+//! `K y = λ D y`: the root of λ is the rms deviation of contacts from their pins over the
 //! rms motion of the pins, free of units and origin (notes §1.3, §3.2). All figures come
 //! from residuals `(I - QQᵀ) y`, never from `yᵀ K y`, which loses half the digits.
 
 use crate::geometry::Vector3;
-use crate::rigidity::model::Knot;
+use crate::rigidity::model::Coupling;
 use crate::rigidity::system::System;
 use crate::sparse::{
     Block, Factor, Halt, Operator, RHS, largest, orthonormalise, project_out,
@@ -175,10 +175,11 @@ const SCATTERED: f64 = 0.1;
 /// are, and a random_block part so that none is missed.
 fn smooth(system: &System, roots: &[f64]) -> Block {
     let model = system.model;
-    let count = model.knots.len().max(1) as f64;
-    let centre = model.knots.iter().map(|k| k.place().coords).sum::<Vector3>() / count;
-    let off = |knot: &Knot| (knot.place().coords - centre).norm_squared();
-    let radius = (model.knots.iter().map(off).sum::<f64>() / count).sqrt();
+    let count = model.couplings.len().max(1) as f64;
+    let centre =
+        model.couplings.iter().map(|k| k.place().coords).sum::<Vector3>() / count;
+    let off = |coupling: &Coupling| (coupling.place().coords - centre).norm_squared();
+    let radius = (model.couplings.iter().map(off).sum::<f64>() / count).sqrt();
     let scale = if radius > 0.0 { 1.0 / radius } else { 0.0 };
     // Ten products of pairs of 1, x, y and z in three directions.
     let shares = random_block(2, 30, RHS).values;
@@ -188,10 +189,10 @@ fn smooth(system: &System, roots: &[f64]) -> Block {
     for (row, root) in rows.iter_mut().zip(roots) {
         row.iter_mut().for_each(|x| *x *= SCATTERED * root);
     }
-    for (knot, at) in model.knots.iter().zip(&system.knot_at) {
+    for (coupling, at) in model.couplings.iter().zip(&system.coupling_at) {
         let Some(at) = *at else { continue };
-        let points = at..at + 3 * knot.points.len();
-        for (at, point) in points.step_by(3).zip(&knot.points) {
+        let points = at..at + 3 * coupling.points.len();
+        for (at, point) in points.step_by(3).zip(&coupling.points) {
             let q = (point.coords - centre) * scale;
             let linear = [1.0, q.x, q.y, q.z];
             let pairs = (0..4).flat_map(|i| (i..4).map(move |j| linear[i] * linear[j]));

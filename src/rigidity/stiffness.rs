@@ -1,7 +1,7 @@
-//! What the factor is made from: the resistance of each body, sleeves with weights.
+//! What the factor is made from: the resistance of each body, contacts with weights.
 
 use crate::rigidity::motions::Motions;
-use crate::rigidity::system::{Job, Span, System};
+use crate::rigidity::system::{Contribution, Span, System};
 use crate::sparse::{Entries, Factor, Singular, map_chunks};
 use crate::tolerance::SHIFT;
 use std::ops::Range;
@@ -20,7 +20,7 @@ impl<'a> Stiffness<'a> {
         let weighted = weights.map(|weights| {
             let roots: Vec<f64> = weights.iter().map(|w| w.sqrt()).collect();
             let of = |body: usize| {
-                let range = system.sleeve[body]..system.sleeve[body + 1];
+                let range = system.first_contact[body]..system.first_contact[body + 1];
                 if system.fixed == Some(body) {
                     return Motions::none(3 * range.len());
                 }
@@ -51,22 +51,24 @@ impl<'a> Stiffness<'a> {
         Factor::new(&self.system.symbolic, self, self.system.threads)
     }
 
-    /// How far each sleeve leaves its pin when bodies follow the heavier sleeves more, three
-    /// numbers per sleeve.
+    /// How far each contact leaves its pin when bodies follow the heavier contacts more, three
+    /// numbers per contact.
     pub(super) fn deviations(&self, y: &[f64]) -> Vec<f64> {
         let system = self.system;
         let some = |part: Range<usize>| {
             let (mut all, mut values) = (Vec::new(), Vec::new());
             for body in part {
                 system.gather(body, y, &mut values);
-                for (velocity, sleeve) in
-                    values.chunks_exact_mut(3).zip(system.sleeve[body]..)
+                for (velocity, contact) in
+                    values.chunks_exact_mut(3).zip(system.first_contact[body]..)
                 {
-                    velocity.iter_mut().for_each(|x| *x *= self.root(sleeve));
+                    velocity.iter_mut().for_each(|x| *x *= self.root(contact));
                 }
                 self.motions(body).clear_values(&mut values);
-                for (off, sleeve) in values.chunks_exact(3).zip(system.sleeve[body]..) {
-                    all.extend(off.iter().map(|x| x / self.root(sleeve)));
+                for (off, contact) in
+                    values.chunks_exact(3).zip(system.first_contact[body]..)
+                {
+                    all.extend(off.iter().map(|x| x / self.root(contact)));
                 }
             }
             all
@@ -74,7 +76,7 @@ impl<'a> Stiffness<'a> {
         map_chunks(system.motions.len(), system.threads, some)
     }
 
-    /// Bodies that keep their motion: its six unknowns, and the weights on their knots.
+    /// Bodies that keep their motion: its six unknowns, and the weights on their couplings.
     fn add_own(&mut self) {
         let system = self.system;
         for (body, group) in system.body_group.iter().enumerate() {
@@ -82,24 +84,24 @@ impl<'a> Stiffness<'a> {
             let place = system.symbolic.place[group as usize];
             let own = system.symbolic.start[place]..system.symbolic.start[place + 1];
             self.diagonal[own].fill(1.0);
-            let mut sleeve = system.sleeve[body];
-            for &knot in &system.model.touches[body] {
-                for k in 0..system.model.knots[knot].points.len() {
-                    let root = self.root(sleeve);
-                    if let Some(at) = system.knot_at[knot] {
+            let mut contact = system.first_contact[body];
+            for &coupling in &system.model.incidence[body] {
+                for k in 0..system.model.couplings[coupling].points.len() {
+                    let root = self.root(contact);
+                    if let Some(at) = system.coupling_at[coupling] {
                         let at = at + 3 * k;
                         self.diagonal[at..at + 3]
                             .iter_mut()
                             .for_each(|d| *d += root * root);
                     }
-                    sleeve += 1;
+                    contact += 1;
                 }
             }
         }
     }
 
-    fn root(&self, sleeve: usize) -> f64 {
-        self.weighted.as_ref().map_or(1.0, |(_, roots)| roots[sleeve])
+    fn root(&self, contact: usize) -> f64 {
+        self.weighted.as_ref().map_or(1.0, |(_, roots)| roots[contact])
     }
 
     fn motions(&self, body: usize) -> &Motions {
@@ -107,8 +109,8 @@ impl<'a> Stiffness<'a> {
         &all[body]
     }
 
-    /// The block of a body between two of its knots: `S (I - Q Qᵀ) S`.
-    fn block(&self, body: usize, (row, column): (Span, Span), block: &mut [f64]) {
+    /// The block of a body between two of its couplings: `S (I - Q Qᵀ) S`.
+    fn block(&self, body: usize, row: Span, column: Span, block: &mut [f64]) {
         let motions = self.motions(body);
         block.fill(0.0);
         for k in 0..motions.rank {
@@ -129,7 +131,7 @@ impl<'a> Stiffness<'a> {
             block.iter_mut().step_by(row.size + 1).for_each(|x| *x += 1.0);
         }
         if self.weighted.is_some() {
-            let root = |row: usize| self.root(self.system.sleeve[body] + row / 3);
+            let root = |row: usize| self.root(self.system.first_contact[body] + row / 3);
             for (c, values) in block.chunks_exact_mut(row.size).enumerate() {
                 let across = root(column.row + c);
                 for (r, x) in values.iter_mut().enumerate() {
@@ -139,17 +141,18 @@ impl<'a> Stiffness<'a> {
         }
     }
 
-    /// The block between a knot and a body that keeps its motion, `-S Q`; transposed if the
-    /// knot is eliminated first.
-    fn link(&self, body: usize, (knot, own): (Span, usize), block: &mut [f64]) {
+    /// The block between a coupling and a body that keeps its motion, `-S Q`; transposed if the
+    /// coupling is eliminated first.
+    fn link(&self, body: usize, coupling: Span, own: usize, block: &mut [f64]) {
         let motions = self.motions(body);
         let entry = |r: usize, k: usize| {
-            let root = self.root(self.system.sleeve[body] + (knot.row + r) / 3);
-            -root * motions.column(k)[knot.row + r]
+            let root =
+                self.root(self.system.first_contact[body] + (coupling.row + r) / 3);
+            -root * motions.column(k)[coupling.row + r]
         };
         for (at, x) in block.iter_mut().enumerate() {
-            *x = if knot.place > own {
-                entry(at % knot.size, at / knot.size)
+            *x = if coupling.place > own {
+                entry(at % coupling.size, at / coupling.size)
             } else {
                 entry(at / motions.rank, at % motions.rank)
             };
@@ -179,17 +182,17 @@ impl Entries for Stiffness<'_> {
             block.iter_mut().step_by(size + 1).zip(diagonal).for_each(|(x, d)| *x = *d);
             add(place, place, block);
         }
-        for &job in &self.system.jobs[supernode] {
-            match job {
-                Job::Block { body, row, column } => {
+        for &contribution in &self.system.contributions[supernode] {
+            match contribution {
+                Contribution::Block { body, row, column } => {
                     let block = &mut block[..row.size * column.size];
-                    self.block(body, (row, column), block);
+                    self.block(body, row, column, block);
                     add(row.place, column.place, block);
                 }
-                Job::Link { body, knot, own } => {
-                    let block = &mut block[..knot.size * self.motions(body).rank];
-                    self.link(body, (knot, own), block);
-                    add(knot.place.max(own), knot.place.min(own), block);
+                Contribution::Link { body, coupling, own } => {
+                    let block = &mut block[..coupling.size * self.motions(body).rank];
+                    self.link(body, coupling, own, block);
+                    add(coupling.place.max(own), coupling.place.min(own), block);
                 }
             }
         }

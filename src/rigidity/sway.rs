@@ -3,10 +3,10 @@
 use crate::geometry::{Point3, Vector3};
 use crate::rigidity::amplify::{Bracket, Bracketing, Load};
 use crate::rigidity::compliance::compliances;
+use crate::rigidity::criteria::Criteria;
 use crate::rigidity::model::Model;
 use crate::rigidity::spectrum::Modes;
 use crate::rigidity::system::System;
-use crate::rigidity::verdict::SwayLimit;
 use crate::sparse::Halt;
 use crate::tolerance::SAME_SWAY;
 use crate::watch::Watch;
@@ -58,33 +58,33 @@ impl Sway {
     }
 }
 
-/// Spans of all knots: the distance to the nearest held pin, or the size of the whole.
+/// Spans of all couplings: the distance to the nearest held pin, or the size of the whole.
 pub(super) fn spans(model: &Model) -> Vec<f64> {
-    let pins = || model.knots.iter().filter(|knot| knot.is_pin());
+    let pins = || model.couplings.iter().filter(|coupling| coupling.is_pin());
     let held: Vec<Point3> = pins().filter(|k| k.held).map(|k| k.place()).collect();
     if held.is_empty() {
         let count = pins().count().max(1) as f64;
         let centre = pins().map(|k| k.place().coords).sum::<Vector3>() / count;
         let reach =
             pins().map(|k| (k.place().coords - centre).norm()).fold(0.0, f64::max);
-        return vec![2.0 * reach; model.knots.len()];
+        return vec![2.0 * reach; model.couplings.len()];
     }
     let nearest = |p: Point3| {
         let off = held.iter().map(|h| (h - p).norm_squared());
         off.fold(f64::INFINITY, f64::min).sqrt()
     };
-    model.knots.iter().map(|knot| nearest(knot.place())).collect()
+    model.couplings.iter().map(|coupling| nearest(coupling.place())).collect()
 }
 
-/// Velocity of the node of a knot.
-pub(super) fn node_velocity(system: &System, knot: usize, y: &[f64]) -> Vector3 {
-    let Some(at) = system.knot_at[knot] else { return Vector3::zeros() };
-    let share = system.model.knots[knot].share;
+/// Velocity of the node of a coupling.
+pub(super) fn node_velocity(system: &System, coupling: usize, y: &[f64]) -> Vector3 {
+    let Some(at) = system.coupling_at[coupling] else { return Vector3::zeros() };
+    let share = system.model.couplings[coupling].share;
     let end = |k: usize| Vector3::new(y[at + k], y[at + k + 1], y[at + k + 2]);
     end(0) * (1.0 - share) + end(3) * share
 }
 
-/// Brackets the amplification where it is worst, for a play and a limit; `more` rounds are
+/// Brackets the amplification where it is worst, for a play and a limit; `rounds` are
 /// spent on figures when the verdict stands. `None` if no node can move.
 ///
 /// # Errors
@@ -92,21 +92,22 @@ pub(super) fn node_velocity(system: &System, knot: usize, y: &[f64]) -> Vector3 
 pub(super) fn worst(
     system: &System,
     modes: &Modes,
-    (play, limit, more): (f64, SwayLimit, usize),
+    criteria: &Criteria,
+    rounds: usize,
     watch: &dyn Watch,
 ) -> Result<Option<Sway>, Halt> {
     let factor = system.factor()?;
     let rigid = if system.floats { system.rigid() } else { Vec::new() };
     let spans = spans(system.model);
-    let wall = |knot: usize| limit.of(spans[knot]);
+    let limit = |coupling: usize| criteria.limit.of(spans[coupling]);
     let compliances = compliances(system, &factor, &rigid, watch)?;
-    let chosen = chosen(system, &compliances, modes, &wall);
-    let loads = chosen.iter().flat_map(|knot| {
-        let axes = compliances.iter().find(|(k, _)| k == knot).map(|(_, m)| *m);
+    let chosen = chosen(system, &compliances, modes, &limit);
+    let loads = chosen.iter().flat_map(|coupling| {
+        let axes = compliances.iter().find(|(k, _)| k == coupling).map(|(_, m)| *m);
         let axes = axes.unwrap_or_else(Matrix3::identity).symmetric_eigen().eigenvectors;
         let rigid = &rigid;
         (0..3).filter_map(move |k| {
-            Load::new(system, rigid, *knot, settled(axes.column(k).into()))
+            Load::new(system, rigid, *coupling, settled(axes.column(k).into()))
         })
     });
     Halt::if_stopped(watch)?;
@@ -116,26 +117,26 @@ pub(super) fn worst(
     if all.is_empty() {
         return Ok(None);
     }
-    tighten(&mut all, (play, &wall), more, watch)?;
-    let top = highest(&all, &wall);
+    tighten(&mut all, criteria.play_mm, &limit, rounds, watch)?;
+    let top = highest(&all, &limit);
     let demand = |of: fn(&Bracket) -> f64| {
-        let each = all.iter().map(|b| of(&b.bracket()) / wall(b.load.knot));
+        let each = all.iter().map(|b| of(&b.bracket()) / limit(b.load.coupling));
         each.fold(0.0, f64::max)
     };
     let worst = &all[top];
     Ok(Some(Sway {
-        node: system.model.knots[worst.load.knot].node,
+        node: system.model.couplings[worst.load.coupling].node,
         direction: worst.load.direction,
         bracket: worst.bracket(),
-        limit_mm: wall(worst.load.knot),
-        span_mm: spans[worst.load.knot],
+        limit_mm: limit(worst.load.coupling),
+        span_mm: spans[worst.load.coupling],
         demand: Bracket { lower: demand(|b| b.lower), upper: demand(|b| b.upper) },
     }))
 }
 
 /// Sway over play at the same node and direction with all bodies of each pin joined by a
-/// lever of half the pin's length, to compare (notes §3.4). On a whole that floats the best
-/// fit counts the ends of these levers too. `None` for what is too large to compare.
+/// moment_arm of half the pin's length, to compare (notes §3.4). On a whole that floats the best
+/// fit counts the ends of these moment_arms too. `None` for what is too large to compare.
 ///
 /// # Errors
 /// [`Halt`] if a factorisation fails or the watch stops it.
@@ -172,9 +173,9 @@ fn settled(direction: Vector3) -> Vector3 {
 }
 
 /// The bracketing of largest upper bound over limit.
-fn highest(all: &[Bracketing], wall: &dyn Fn(usize) -> f64) -> usize {
+fn highest(all: &[Bracketing], limit: &dyn Fn(usize) -> f64) -> usize {
     let demands: Vec<f64> =
-        all.iter().map(|b| b.bracket().upper / wall(b.load.knot)).collect();
+        all.iter().map(|b| b.bracket().upper / limit(b.load.coupling)).collect();
     largest(&demands).unwrap_or(0)
 }
 
@@ -188,18 +189,19 @@ fn largest(values: &[f64]) -> Option<usize> {
 /// Tightens until the verdict stands, or what decides it is narrow.
 fn tighten(
     all: &mut [Bracketing],
-    (play, wall): (f64, &dyn Fn(usize) -> f64),
-    more: usize,
+    play: f64,
+    limit: &dyn Fn(usize) -> f64,
+    rounds: usize,
     watch: &dyn Watch,
 ) -> Result<(), Halt> {
-    for round in 0..MOST_ROUNDS.max(more) {
+    for round in 0..MOST_ROUNDS.max(rounds) {
         Halt::if_stopped(watch)?;
-        let top = highest(all, wall);
-        let sways = |b: &Bracketing| b.bracket().lower * play > wall(b.load.knot);
-        let stands = all[top].bracket().upper * play <= wall(all[top].load.knot)
+        let top = highest(all, limit);
+        let sways = |b: &Bracketing| b.bracket().lower * play > limit(b.load.coupling);
+        let stands = all[top].bracket().upper * play <= limit(all[top].load.coupling)
             || all.iter().any(sways);
         let narrow = all[top].bracket().is_narrow();
-        if narrow || round >= if stands { more } else { more.max(MOST_ROUNDS) } {
+        if narrow || round >= if stands { rounds } else { rounds.max(MOST_ROUNDS) } {
             return Ok(());
         }
         all[top].tighten()?;
@@ -213,20 +215,23 @@ fn chosen(
     system: &System,
     compliances: &[(usize, Matrix3<f64>)],
     modes: &Modes,
-    wall: &dyn Fn(usize) -> f64,
+    limit: &dyn Fn(usize) -> f64,
 ) -> BTreeSet<usize> {
     let most = |of: &dyn Fn(usize) -> f64| {
-        let values: Vec<f64> = compliances.iter().map(|(knot, _)| of(*knot)).collect();
+        let values: Vec<f64> =
+            compliances.iter().map(|(coupling, _)| of(*coupling)).collect();
         largest(&values).map(|k| compliances[k].0)
     };
     let mut chosen = BTreeSet::new();
-    chosen.extend(most(wall));
+    chosen.extend(most(limit));
     for y in &modes.motions {
-        chosen.extend(most(&|k| node_velocity(system, k, y).norm() / wall(k)));
+        chosen.extend(most(&|k| node_velocity(system, k, y).norm() / limit(k)));
     }
     let mut left: Vec<f64> = compliances
         .iter()
-        .map(|(knot, m)| m.symmetric_eigenvalues().max().max(0.0).sqrt() / wall(*knot))
+        .map(|(coupling, m)| {
+            m.symmetric_eigenvalues().max().max(0.0).sqrt() / limit(*coupling)
+        })
         .collect();
     for _ in 0..TOP.min(left.len()) {
         let Some(k) = largest(&left) else { break };

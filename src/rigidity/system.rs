@@ -1,10 +1,10 @@
 //! Resistance against motion as a sparse matrix.
 //!
-//! Unknowns are the velocities `y` of the points of all knots that the ground does not
+//! Unknowns are the velocities `y` of the points of all couplings that the ground does not
 //! hold. A body answers with its best rigid motion, so that it resists by
-//! `yᵀ S (I - Q Qᵀ) S y`, `Q` its motions and `S` the roots of the weights of its sleeves:
-//! the *pin form* `K` (notes §1.3). A body on many knots keeps its motion as six unknowns
-//! of its own; eliminating the knots first is then the *body form*.
+//! `yᵀ S (I - Q Qᵀ) S y`, `Q` its motions and `S` the roots of the weights of its contacts:
+//! the *pin form* `K` (notes §1.3). A body on many couplings keeps its motion as six unknowns
+//! of its own; eliminating the couplings first is then the *body form*.
 
 use crate::geometry::Point3;
 use crate::rigidity::model::Model;
@@ -26,24 +26,24 @@ pub(super) struct System<'a> {
     pub(super) motions: Vec<Motions>,
     /// A body that the ground holds.
     pub(super) fixed: Option<usize>,
-    /// For each knot its first unknown, unless it is held.
-    pub(super) knot_at: Vec<Option<usize>>,
-    /// For each knot its group.
-    pub(super) knot_group: Vec<Option<u32>>,
+    /// For each coupling its first unknown, unless it is held.
+    pub(super) coupling_at: Vec<Option<usize>>,
+    /// For each coupling its group.
+    pub(super) coupling_group: Vec<Option<u32>>,
     /// For each body its group, if it keeps its motion.
     pub(super) body_group: Vec<Option<u32>>,
     /// The fixed part of the factorisation.
     pub(super) symbolic: Symbolic,
     /// By supernode, what bodies add there.
-    pub(super) jobs: Vec<Vec<Job>>,
-    /// By body, the first of its sleeves (one per knot and point); one more at the end.
-    pub(super) sleeve: Vec<usize>,
+    pub(super) contributions: Vec<Vec<Contribution>>,
+    /// By body, the first of its contacts (one per coupling and point); one more at the end.
+    pub(super) first_contact: Vec<usize>,
     /// Whether the six rigid motions of the whole are free.
     pub(super) floats: bool,
     pub(super) threads: usize,
 }
 
-/// A free knot of a body.
+/// A free coupling of a body.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Span {
     /// Place of its group.
@@ -56,15 +56,15 @@ pub(super) struct Span {
 
 /// A block that a body adds to the matrix.
 #[derive(Debug, Clone, Copy)]
-pub(super) enum Job {
-    /// Between two of its knots, the row's place not before the column's.
+pub(super) enum Contribution {
+    /// Between two of its couplings, the row's place not before the column's.
     Block { body: usize, row: Span, column: Span },
-    /// Between one of its knots and its own motion, at the place `own`.
-    Link { body: usize, knot: Span, own: usize },
+    /// Between one of its couplings and its own motion, at the place `own`.
+    Link { body: usize, coupling: Span, own: usize },
 }
 
 impl<'a> System<'a> {
-    /// Sets the unknowns of a model up; `fixed` is a body to hold beside its held knots.
+    /// Sets the unknowns of a model up; `fixed` is a body to hold beside its held couplings.
     pub(super) fn new(model: &'a Model, fixed: Option<usize>, threads: usize) -> Self {
         let motions = motions(model, fixed, threads);
         let rows = |body: usize| motions[body].rows;
@@ -73,53 +73,53 @@ impl<'a> System<'a> {
             sizes.push(size);
             (sizes.len() - 1) as u32
         };
-        let knots = model.knots.iter();
-        let knot_group: Vec<Option<u32>> =
-            knots.map(|k| (!k.held).then(|| group(3 * k.points.len()))).collect();
+        let couplings = model.couplings.iter();
+        let coupling_group: Vec<Option<u32>> =
+            couplings.map(|k| (!k.held).then(|| group(3 * k.points.len()))).collect();
         let keeps = |body: usize| rows(body) > MOST_ROWS && Some(body) != fixed;
         let body_group: Vec<Option<u32>> = (0..model.bodies.len())
             .map(|body| keeps(body).then(|| group(motions[body].rank)))
             .collect();
-        let neighbours = neighbours(model, &knot_group, &body_group, sizes.len());
+        let neighbours = neighbours(model, &coupling_group, &body_group, sizes.len());
         let symbolic = Symbolic::new(&sizes, &neighbours);
         let at = |group: u32| symbolic.start[symbolic.place[group as usize]];
-        let knot_at = knot_group.iter().map(|group| group.map(at)).collect();
-        let mut sleeve = vec![0];
+        let coupling_at = coupling_group.iter().map(|group| group.map(at)).collect();
+        let mut first_contact = vec![0];
         for body in 0..model.bodies.len() {
-            sleeve.push(sleeve[body] + rows(body) / 3);
+            first_contact.push(first_contact[body] + rows(body) / 3);
         }
         let floats = !model.is_supported() && fixed.is_none();
-        let jobs = Vec::new();
+        let contributions = Vec::new();
         let mut system = Self {
             model,
             motions,
             fixed,
-            knot_at,
-            knot_group,
+            coupling_at,
+            coupling_group,
             body_group,
             symbolic,
-            jobs,
-            sleeve,
+            contributions,
+            first_contact,
             floats,
             threads,
         };
-        system.jobs = system.jobs();
+        system.contributions = system.contributions();
         system
     }
 
     /// Each block goes to the supernode that eliminates the first of its two groups.
-    fn jobs(&self) -> Vec<Vec<Job>> {
-        let mut jobs = vec![Vec::new(); self.symbolic.supernodes.len()];
+    fn contributions(&self) -> Vec<Vec<Contribution>> {
+        let mut contributions = vec![Vec::new(); self.symbolic.supernodes.len()];
         let place = |group: u32| self.symbolic.place[group as usize];
-        let mut give = |job: Job, first: usize| {
-            jobs[self.symbolic.owner[first] as usize].push(job);
+        let mut give = |contribution: Contribution, first: usize| {
+            contributions[self.symbolic.owner[first] as usize].push(contribution);
         };
         for body in 0..self.model.bodies.len() {
             let mut row = 0;
             let mut free = Vec::with_capacity(3);
-            for &knot in &self.model.touches[body] {
-                let size = 3 * self.model.knots[knot].points.len();
-                free.extend(self.knot_group[knot].map(|group| Span {
+            for &coupling in &self.model.incidence[body] {
+                let size = 3 * self.model.couplings[coupling].points.len();
+                free.extend(self.coupling_group[coupling].map(|group| Span {
                     place: place(group),
                     row,
                     size,
@@ -129,18 +129,21 @@ impl<'a> System<'a> {
             let own = self.body_group[body].map(place);
             for &column in &free {
                 if let Some(own) = own {
-                    give(Job::Link { body, knot: column, own }, column.place.min(own));
+                    give(
+                        Contribution::Link { body, coupling: column, own },
+                        column.place.min(own),
+                    );
                     continue;
                 }
                 for &row in free.iter().filter(|row| row.place >= column.place) {
-                    give(Job::Block { body, row, column }, column.place);
+                    give(Contribution::Block { body, row, column }, column.place);
                 }
             }
         }
-        jobs
+        contributions
     }
 
-    /// The body that is held beside the held knots.
+    /// The body that is held beside the held couplings.
     pub(super) fn fixed(&self) -> Option<usize> {
         self.fixed
     }
@@ -153,9 +156,10 @@ impl<'a> System<'a> {
     /// How many bodies sit on each unknown; none on those that are a body's own.
     pub(super) fn counts(&self) -> Vec<f64> {
         let mut counts = vec![0.0; self.unknowns()];
-        for (knot, at) in self.model.knots.iter().zip(&self.knot_at) {
+        for (coupling, at) in self.model.couplings.iter().zip(&self.coupling_at) {
             if let Some(at) = *at {
-                counts[at..at + 3 * knot.points.len()].fill(knot.bodies.len() as f64);
+                counts[at..at + 3 * coupling.points.len()]
+                    .fill(coupling.bodies.len() as f64);
             }
         }
         counts
@@ -176,18 +180,19 @@ impl<'a> System<'a> {
     /// Velocities at the points of a body.
     pub(super) fn gather(&self, body: usize, y: &[f64], into: &mut Vec<f64>) {
         into.clear();
-        for &knot in &self.model.touches[body] {
-            let size = 3 * self.model.knots[knot].points.len();
-            match self.knot_at[knot] {
+        for &coupling in &self.model.incidence[body] {
+            let size = 3 * self.model.couplings[coupling].points.len();
+            match self.coupling_at[coupling] {
                 Some(at) => into.extend_from_slice(&y[at..at + size]),
                 None => into.extend(std::iter::repeat_n(0.0, size)),
             }
         }
     }
 
-    /// How far each sleeve leaves its pin, three numbers per sleeve: `(I - QQᵀ) y`.
+    /// How far each contact leaves its pin, three numbers per contact: `(I - QQᵀ) y`.
     pub(super) fn deviations(&self, y: &[f64]) -> Vec<f64> {
-        let mut all = Vec::with_capacity(3 * self.sleeve[self.sleeve.len() - 1]);
+        let mut all =
+            Vec::with_capacity(3 * self.first_contact[self.first_contact.len() - 1]);
         let mut values = Vec::new();
         for (body, motions) in self.motions.iter().enumerate() {
             self.gather(body, y, &mut values);
@@ -197,7 +202,7 @@ impl<'a> System<'a> {
         all
     }
 
-    /// `yᵀ K y` of each `y`, from the sleeves' deviations.
+    /// `yᵀ K y` of each `y`, from the contacts' deviations.
     pub(super) fn resistances(&self, all: &[Vec<f64>]) -> Vec<f64> {
         let count = self.motions.len();
         let some = |values: &mut Vec<f64>, k: usize| {
@@ -215,15 +220,15 @@ impl<'a> System<'a> {
         (0..all.len()).map(|k| parts.iter().map(|sums| sums[k]).sum()).collect()
     }
 
-    /// Adds up sleeve values on the unknowns: the transpose of gathering.
-    pub(super) fn scatter(&self, sleeves: &[f64]) -> Vec<f64> {
+    /// Adds up contact values on the unknowns: the transpose of gathering.
+    pub(super) fn scatter(&self, contacts: &[f64]) -> Vec<f64> {
         let mut y = vec![0.0; self.unknowns()];
         let mut from = 0;
-        for knots in &self.model.touches {
-            for &knot in knots {
-                let size = 3 * self.model.knots[knot].points.len();
-                if let Some(at) = self.knot_at[knot] {
-                    let values = &sleeves[from..from + size];
+        for couplings in &self.model.incidence {
+            for &coupling in couplings {
+                let size = 3 * self.model.couplings[coupling].points.len();
+                if let Some(at) = self.coupling_at[coupling] {
+                    let values = &contacts[from..from + size];
                     y[at..at + size].iter_mut().zip(values).for_each(|(y, v)| *y += v);
                 }
                 from += size;
@@ -232,13 +237,13 @@ impl<'a> System<'a> {
         y
     }
 
-    /// Six orthonormal rigid motions of the whole, over all unknowns of knots.
+    /// Six orthonormal rigid motions of the whole, over all unknowns of couplings.
     pub(super) fn rigid(&self) -> Vec<Vec<f64>> {
-        let knots = self.model.knots.iter().zip(&self.knot_at);
-        let free: Vec<(Point3, usize)> = knots
-            .filter_map(|(knot, at)| Some((knot, (*at)?)))
-            .flat_map(|(knot, at)| {
-                knot.points.iter().enumerate().map(move |(k, &p)| (p, at + 3 * k))
+        let couplings = self.model.couplings.iter().zip(&self.coupling_at);
+        let free: Vec<(Point3, usize)> = couplings
+            .filter_map(|(coupling, at)| Some((coupling, (*at)?)))
+            .flat_map(|(coupling, at)| {
+                coupling.points.iter().enumerate().map(move |(k, &p)| (p, at + 3 * k))
             })
             .collect();
         let points: Vec<Point3> = free.iter().map(|(p, _)| *p).collect();
@@ -263,23 +268,24 @@ impl<'a> System<'a> {
 
     /// Six unknowns that hold the whole still and strain nothing, and how strongly.
     pub(super) fn stays(&self, diagonal: &[f64]) -> Vec<(usize, f64)> {
-        let free =
-            |k: &usize| self.knot_at[*k].is_some() && self.model.knots[*k].is_pin();
-        let Some(first) = (0..self.model.knots.len()).find(free) else {
+        let free = |k: &usize| {
+            self.coupling_at[*k].is_some() && self.model.couplings[*k].is_pin()
+        };
+        let Some(first) = (0..self.model.couplings.len()).find(free) else {
             return Vec::new();
         };
-        let Some(at) = self.knot_at[first] else { return Vec::new() };
-        let [a, b] = [0, 1].map(|k| self.model.knots[first].points[k]);
+        let Some(at) = self.coupling_at[first] else { return Vec::new() };
+        let [a, b] = [0, 1].map(|k| self.model.couplings[first].points[k]);
         let axis = (b - a).normalize();
         let along = axis.iamax();
         let mut stays: Vec<usize> =
             (at..at + 6).filter(|&k| k != at + 3 + along).collect();
-        let knots = self.model.knots.iter().zip(&self.knot_at);
-        let lever = |p: Point3| axis.cross(&(p - a));
-        let far = knots
-            .filter_map(|(knot, at)| Some((lever(knot.points[0]), (*at)?)))
+        let couplings = self.model.couplings.iter().zip(&self.coupling_at);
+        let moment_arm = |p: Point3| axis.cross(&(p - a));
+        let far = couplings
+            .filter_map(|(coupling, at)| Some((moment_arm(coupling.points[0]), (*at)?)))
             .max_by(|(p, _), (q, _)| p.norm_squared().total_cmp(&q.norm_squared()));
-        stays.extend(far.map(|(lever, at)| at + lever.iamax()));
+        stays.extend(far.map(|(moment_arm, at)| at + moment_arm.iamax()));
         stays.into_iter().map(|k| (k, diagonal[k].max(1.0))).collect()
     }
 }
@@ -304,23 +310,25 @@ fn motions(model: &Model, fixed: Option<usize>, threads: usize) -> Vec<Motions> 
 /// Which groups meet in a body.
 fn neighbours(
     model: &Model,
-    knot_group: &[Option<u32>],
+    coupling_group: &[Option<u32>],
     body_group: &[Option<u32>],
     groups: usize,
 ) -> Vec<Vec<u32>> {
     let mut neighbours = vec![Vec::new(); groups];
-    for (body, knots) in model.touches.iter().enumerate() {
-        let free: Vec<u32> = knots.iter().filter_map(|&k| knot_group[k]).collect();
+    for (body, couplings) in model.incidence.iter().enumerate() {
+        let free: Vec<u32> =
+            couplings.iter().filter_map(|&k| coupling_group[k]).collect();
         match body_group[body] {
             Some(own) => {
-                for &knot in &free {
-                    neighbours[knot as usize].push(own);
-                    neighbours[own as usize].push(knot);
+                for &coupling in &free {
+                    neighbours[coupling as usize].push(own);
+                    neighbours[own as usize].push(coupling);
                 }
             }
             None => {
-                for &knot in &free {
-                    neighbours[knot as usize].extend(free.iter().filter(|&&o| o != knot));
+                for &coupling in &free {
+                    neighbours[coupling as usize]
+                        .extend(free.iter().filter(|&&o| o != coupling));
                 }
             }
         }

@@ -2,10 +2,11 @@
 
 use crate::joint::Joint;
 use crate::rigidity::amplify::Bracket;
+use crate::rigidity::criteria::Criteria;
 use crate::rigidity::finding::RigidityFinding;
 use crate::rigidity::mobility::{Mobility, mobility};
-use crate::rigidity::model::{Body, Model};
-use crate::rigidity::paper::{Pairing, Paper, paper};
+use crate::rigidity::model::{Model, RigidBody};
+use crate::rigidity::paper::{Paper, paper};
 use crate::rigidity::remedy::{self, Remedy};
 use crate::rigidity::spectrum::least;
 use crate::rigidity::sway::{self, Sway};
@@ -16,56 +17,6 @@ use crate::tolerance::FORCE_BALANCE;
 use crate::watch::Watch;
 use sha2::{Digest, Sha256};
 use thiserror::Error;
-
-/// What a structure may sway.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum SwayLimit {
-    /// So many mm.
-    Length(f64),
-    /// A share of the distance to the nearest support: 1/50 for `L/50`.
-    Share(f64),
-}
-
-impl SwayLimit {
-    /// The limit over a span, both in mm.
-    pub fn of(self, span: f64) -> f64 {
-        match self {
-            Self::Length(length) => length,
-            Self::Share(share) => share * span,
-        }
-    }
-}
-
-impl std::str::FromStr for SwayLimit {
-    type Err = RigidityFinding;
-
-    fn from_str(text: &str) -> Result<Self, Self::Err> {
-        let wrong = || RigidityFinding::BadLimit { text: text.to_owned() };
-        let number = |text: &str| {
-            let number = text.trim().parse::<f64>().map_err(|_| wrong())?;
-            if number.is_finite() && number > 0.0 { Ok(number) } else { Err(wrong()) }
-        };
-        match text.trim().strip_prefix("L/") {
-            Some(parts) => Ok(Self::Share(1.0 / number(parts)?)),
-            None => Ok(Self::Length(number(text)?)),
-        }
-    }
-}
-
-/// What is asked about a model.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Question {
-    /// How far a sleeve may leave its pin, mm.
-    pub play_mm: f64,
-    /// What a node may sway.
-    pub limit: SwayLimit,
-    /// How many of the least resisted motions to look at.
-    pub modes: usize,
-    /// How the paper's matrix compares bodies.
-    pub pairing: Pairing,
-    /// Scaled lengths over lengths in the paper's figures.
-    pub scale: f64,
-}
 
 /// The modes that decide where to look.
 const LEAST_MODES: usize = 8;
@@ -127,7 +78,7 @@ impl Outcome {
 pub struct Verdict {
     outcome: Outcome,
     of: Fingerprint,
-    pub(super) bodies: Vec<Body>,
+    pub(super) bodies: Vec<RigidBody>,
     pub(super) pins: usize,
     /// Exact motions, if they could be counted.
     pub(super) mobility: Option<usize>,
@@ -154,16 +105,15 @@ pub struct Stopped;
 /// [`Stopped`] if the watch stopped the work.
 pub fn judge(
     model: &Model,
-    question: &Question,
+    criteria: &Criteria,
     of: Fingerprint,
     watch: &mut dyn Watch,
 ) -> Result<Verdict, Stopped> {
     let threads = std::thread::available_parallelism().map_or(1, usize::from);
-    let modes = question.modes.max(LEAST_MODES);
+    let criteria = &Criteria { play_mm: criteria.play_mm.max(0.0), ..*criteria };
     let system = System::new(model, None, threads);
-    let scaled = (question.pairing, question.scale);
     watch.progress("rigidity", 0, STEPS);
-    let paper = match paper(model, scaled, question.modes, threads, watch) {
+    let paper = match paper(model, criteria, threads, watch) {
         Err(Halt::Stopped) => return Err(Stopped),
         paper => paper.ok(),
     };
@@ -175,14 +125,14 @@ pub fn judge(
         mobility: None,
         paper,
         spectrum: Vec::new(),
-        play_mm: question.play_mm.max(0.0),
+        play_mm: criteria.play_mm,
         sway: None,
         stiff: None,
         loose: None,
         remedies: Vec::new(),
         notes: notes(model),
     };
-    match verdict.find(&system, (question, modes), watch) {
+    match verdict.find(&system, criteria, watch) {
         Err(Halt::Stopped) => return Err(Stopped),
         Err(Halt::Failed) => verdict.notes.push(RigidityFinding::NotSolved),
         Ok(()) => {}
@@ -197,7 +147,7 @@ fn notes(model: &Model) -> Vec<RigidityFinding> {
     let mut notes = Vec::new();
     if model.pins() == 0 {
         notes.push(RigidityFinding::NoPins { bodies: model.bodies.len() });
-    } else if model.knots.iter().all(|knot| knot.held) {
+    } else if model.couplings.iter().all(|coupling| coupling.held) {
         notes.push(RigidityFinding::AllHeld);
     }
     notes
@@ -206,14 +156,14 @@ fn notes(model: &Model) -> Vec<RigidityFinding> {
 /// The node that moves most in any of the exact motions.
 fn loosest(system: &System, mobility: &Mobility) -> Option<usize> {
     let model = system.model;
-    let speed = |knot: usize| {
-        let of = |y: &Vec<f64>| sway::node_velocity(system, knot, y).norm_squared();
+    let speed = |coupling: usize| {
+        let of = |y: &Vec<f64>| sway::node_velocity(system, coupling, y).norm_squared();
         mobility.motions.iter().map(of).sum::<f64>()
     };
-    let pins = (0..model.knots.len()).filter(|&k| model.knots[k].is_pin());
+    let pins = (0..model.couplings.len()).filter(|&k| model.couplings[k].is_pin());
     let speeds = pins.map(|k| (speed(k), k));
     let most = speeds.max_by(|a, b| a.0.total_cmp(&b.0).then(b.1.cmp(&a.1)));
-    most.map(|(_, k)| model.knots[k].node)
+    most.map(|(_, k)| model.couplings[k].node)
 }
 
 impl Verdict {
@@ -221,12 +171,12 @@ impl Verdict {
     fn find(
         &mut self,
         system: &System,
-        (question, modes): (&Question, usize),
+        criteria: &Criteria,
         watch: &mut dyn Watch,
     ) -> Result<(), Halt> {
         watch.progress("rigidity", 1, STEPS);
-        let modes = least(system, modes, watch)?;
-        self.spectrum = modes.sigma.iter().take(question.modes).copied().collect();
+        let modes = least(system, criteria.modes.max(LEAST_MODES), watch)?;
+        self.spectrum = modes.sigma.iter().take(criteria.modes).copied().collect();
         watch.progress("rigidity", 2, STEPS);
         let mobility = mobility(system, &modes, watch)?;
         self.mobility = Some(mobility.count);
@@ -236,9 +186,8 @@ impl Verdict {
             return Ok(());
         }
         watch.progress("rigidity", 3, STEPS);
-        let more = sway::rounds_for_figures(system);
-        let asked = (self.play_mm, question.limit, more);
-        self.sway = sway::worst(system, &modes, asked, watch)?;
+        let rounds = sway::rounds_for_figures(system);
+        self.sway = sway::worst(system, &modes, criteria, rounds, watch)?;
         if let Some(sway) = &self.sway {
             self.stiff = match sway::with_stiff_joints(system, sway, watch) {
                 // Nothing hangs on it.

@@ -6,7 +6,7 @@
 //! matrix. By hand, never a test.
 
 use finwright::geometry::{Point3, Vector3, trig};
-use finwright::rigidity::{Body, Knot, Model, least_resisted};
+use finwright::rigidity::{Coupling, Model, RigidBody, least_resisted};
 use std::time::Instant;
 
 fn torus(n: usize) -> Model {
@@ -28,16 +28,16 @@ fn torus(n: usize) -> Model {
         for step in steps.into_iter().flatten() {
             on[at].push(bodies.len());
             on[at + step].push(bodies.len());
-            bodies.push(Body::Fin([at, at + step]));
+            bodies.push(RigidBody::Fin([at, at + step]));
         }
     }
-    let knots = on.into_iter().enumerate().map(|(node, mut bodies)| {
+    let couplings = on.into_iter().enumerate().map(|(node, mut bodies)| {
         let (p, a) = place(node % n, node / n);
         bodies.sort_unstable();
         let points = vec![p - a * 0.25, p + a * 0.25];
-        Knot { node, points, bodies, held: false, share: 0.5 }
+        Coupling { node, points, bodies, held: false, share: 0.5 }
     });
-    Model::new(bodies, knots.collect())
+    Model::new(bodies, couplings.collect())
 }
 
 #[allow(clippy::print_stdout, reason = "a benchmark prints its lines")]

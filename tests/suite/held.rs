@@ -9,7 +9,7 @@ use finwright::joint::Joint;
 use finwright::nest::Effort;
 use finwright::parts::{self, Body, ConnectorBody, Part};
 use finwright::proof::prove;
-use finwright::rigidity::{Body as Member, Model};
+use finwright::rigidity::{Model, RigidBody};
 use finwright::structure::{AxisRule, Draft, read_json};
 use finwright::template::Template;
 use std::collections::BTreeSet;
@@ -115,15 +115,16 @@ fn the_verdict_counts_with_the_discs() {
     let job = made(draft, &template);
     let structure = job.structure.as_ref().unwrap();
     let (model, ..) = job::model(structure, Joint::Lap, &template);
-    let hubs = model.bodies.iter().filter(|body| matches!(body, Member::Hub(_))).count();
+    let hubs =
+        model.bodies.iter().filter(|body| matches!(body, RigidBody::Hub(_))).count();
     assert_eq!(hubs, connectors(&job).len());
-    let slots = model.knots.iter().filter(|knot| !knot.is_pin());
+    let slots = model.couplings.iter().filter(|knot| !knot.is_pin());
     let ends: usize = connectors(&job).iter().map(|(_, body)| body.fins.len()).sum();
     assert_eq!(slots.count(), ends);
     // Without them the ends would hang in the air: no body of theirs is on the node's pin.
     let (node, loose) = (connectors(&job)[0].1.node(), Default::default());
     let bare = Model::of_strips(structure, &loose, &Default::default());
-    let on = |model: &Model| model.knots[model.pin(node).unwrap()].bodies.len();
+    let on = |model: &Model| model.couplings[model.pin(node).unwrap()].bodies.len();
     assert_eq!(on(&model), on(&bare) + 1);
     assert!(job.approved(Joint::Lap, &template).is_ok(), "judged as it is cut");
     let other = template.clone().with_hub_nodes(&[0]);

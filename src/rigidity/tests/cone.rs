@@ -8,7 +8,7 @@ use crate::rigidity::amplify::{Bracketing, Load};
 use crate::rigidity::system::System;
 
 /// Sway over play by a conic program: bodies' motions and pins' velocities are unknowns,
-/// each sleeve within 1 of its pin.
+/// each contact within 1 of its pin.
 fn by_cone_program(system: &System, load: &Load) -> f64 {
     use clarabel::algebra::CscMatrix;
     use clarabel::solver::{
@@ -23,11 +23,11 @@ fn by_cone_program(system: &System, load: &Load) -> f64 {
     let columns = first[first.len() - 1];
     let (mut rows, mut places, mut values) = (Vec::new(), Vec::new(), Vec::new());
     let mut right = Vec::new();
-    for (body, knots) in model.touches.iter().enumerate() {
+    for (body, couplings) in model.incidence.iter().enumerate() {
         let motions = &system.motions[body];
         let mut row = 0;
-        for &knot in knots {
-            for point in 0..model.knots[knot].points.len() {
+        for &coupling in couplings {
+            for point in 0..model.couplings[coupling].points.len() {
                 right.push(1.0);
                 for k in 0..3 {
                     let mut put = |column: usize, value: f64| {
@@ -38,7 +38,7 @@ fn by_cone_program(system: &System, load: &Load) -> f64 {
                     for j in 0..motions.rank {
                         put(first[body] + j, -motions.column(j)[row + k]);
                     }
-                    if let Some(at) = system.knot_at[knot] {
+                    if let Some(at) = system.coupling_at[coupling] {
                         put(at + 3 * point + k, 1.0);
                     }
                     right.push(0.0);
@@ -63,20 +63,20 @@ fn check_proofs(system: &System, found: &Bracketing) {
     let (model, proof) = (system.model, &found.proof);
     let mut row = 0;
     let mut on_pins = vec![0.0; system.unknowns()];
-    for (body, knots) in model.touches.iter().enumerate() {
+    for (body, couplings) in model.incidence.iter().enumerate() {
         let (mut force, mut moment) = (Vector3::zeros(), Vector3::zeros());
         let points = model.points(body);
         let mut moved = nalgebra::DVector::zeros(3 * points.len());
         let mut rigid = nalgebra::DMatrix::zeros(3 * points.len(), 6);
         let mut k = 0;
-        for &knot in knots {
-            for (end, q) in model.knots[knot].points.iter().enumerate() {
+        for &coupling in couplings {
+            for (end, q) in model.couplings[coupling].points.iter().enumerate() {
                 let three = |of: &[f64]| Vector3::new(of[row], of[row + 1], of[row + 2]);
                 let (f, off) = (three(&proof.forces), three(&proof.off));
                 force += f;
                 moment += q.coords.cross(&f);
-                assert!(off.norm() <= 1.0 + 1e-9, "a sleeve leaves its pin too far");
-                let at = system.knot_at[knot].map(|at| at + 3 * end);
+                assert!(off.norm() <= 1.0 + 1e-9, "a contact leaves its pin too far");
+                let at = system.coupling_at[coupling].map(|at| at + 3 * end);
                 for c in 0..3 {
                     // A deviation is the pin's velocity less the body's.
                     moved[k + c] = at.map_or(0.0, |at| proof.motion[at + c]) - off[c];
@@ -127,12 +127,12 @@ fn brackets_hold_what_a_cone_program_finds() {
     for (name, model) in cases {
         let system = System::new(&model, None, 1);
         let rigid = if system.floats { system.rigid() } else { Vec::new() };
-        let middle = model.knots.len() / 2;
-        let knot = (0..model.knots.len())
-            .filter(|&k| model.knots[k].is_pin() && !model.knots[k].held)
+        let middle = model.couplings.len() / 2;
+        let coupling = (0..model.couplings.len())
+            .filter(|&k| model.couplings[k].is_pin() && !model.couplings[k].held)
             .min_by_key(|k| k.abs_diff(middle))
             .unwrap();
-        let load = Load::new(&system, &rigid, knot, Vector3::z()).unwrap();
+        let load = Load::new(&system, &rigid, coupling, Vector3::z()).unwrap();
         let known = by_cone_program(&system, &load);
         let factor = system.factor().unwrap();
         let mut found = Bracketing::first(&system, &factor, vec![load]).remove(0);

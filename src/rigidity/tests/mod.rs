@@ -35,7 +35,9 @@ fn known_linkages_have_their_mobility_and_singular_values() {
         let modes = least(&system, 8, &()).unwrap();
         let dof = case["dof"].as_u64().unwrap() as usize;
         assert_eq!(mobility(&system, &modes, &()).unwrap().count, dof, "{name}");
-        let paper = paper::paper(&model, (Pairing::Pin, 1.0), dof + 3, 1, &()).unwrap();
+        let paper =
+            paper::paper(&model, &Criteria { modes: dof + 3, ..criteria() }, 1, &())
+                .unwrap();
         for (k, known) in numbers(&case["paper_sigma_next"]).into_iter().enumerate() {
             let ours = paper.singular_values[dof + k];
             assert!((ours - known).abs() <= 5e-7 * known, "{name} {ours} {known}");
@@ -69,25 +71,26 @@ fn compliances_are_what_unit_loads_move() {
     let held = held_all_round(combescure(9, false), 9);
     let mut apart = held_all_round(torus(6, false), 6);
     let other = held_all_round(radial(7, false, 0.2), 7);
-    let more = other.knots.into_iter().map(|mut knot| {
-        knot.bodies.iter_mut().for_each(|body| *body += apart.bodies.len());
-        knot
+    let more = other.couplings.into_iter().map(|mut coupling| {
+        coupling.bodies.iter_mut().for_each(|body| *body += apart.bodies.len());
+        coupling
     });
-    apart.knots.extend(more);
+    apart.couplings.extend(more);
     apart.bodies.extend(other.bodies);
-    let apart = Model::new(apart.bodies, apart.knots);
+    let apart = Model::new(apart.bodies, apart.couplings);
     let slots = torus(7, false).stiff();
     for model in [torus(8, false), held, torus(9, true), torus(31, false), apart, slots] {
         let system = System::new(&model, None, 2);
         let factor = system.factor().unwrap();
         let rigid = if system.floats { system.rigid() } else { Vec::new() };
         let found = compliances(&system, &factor, &rigid, &()).unwrap();
-        let free = model.knots.iter().filter(|knot| knot.is_pin() && !knot.held);
+        let free =
+            model.couplings.iter().filter(|coupling| coupling.is_pin() && !coupling.held);
         assert_eq!(found.len(), free.count());
         let few = found.iter().step_by(found.len() / 7);
-        for (knot, block) in few.chain(found.last()) {
+        for (coupling, block) in few.chain(found.last()) {
             let load =
-                |i| Load::new(&system, &rigid, *knot, Vector3::ith(i, 1.0)).unwrap();
+                |i| Load::new(&system, &rigid, *coupling, Vector3::ith(i, 1.0)).unwrap();
             for i in 0..3 {
                 let mut moved = load(i).forces;
                 factor.solve(&mut moved, 1);
@@ -95,7 +98,10 @@ fn compliances_are_what_unit_loads_move() {
                     let forces = load(j).forces;
                     let known: f64 = forces.iter().zip(&moved).map(|(f, y)| f * y).sum();
                     let off = (block[(j, i)] - known).abs();
-                    assert!(off < 1e-7 * block.trace(), "{knot} {i} {j} {known} {block}");
+                    assert!(
+                        off < 1e-7 * block.trace(),
+                        "{coupling} {i} {j} {known} {block}"
+                    );
                 }
             }
         }
@@ -154,10 +160,10 @@ fn projected(model: &Model) -> Model {
         Point3::new(p.x + 0.2 * p.z, 1.3 * p.y - 0.1 * p.x, 0.8 * p.z + 0.3 * p.y) / w
     };
     let mut model = model.clone();
-    for knot in &mut model.knots {
-        let [a, b] = [map(&knot.points[0]), map(&knot.points[1])];
+    for coupling in &mut model.couplings {
+        let [a, b] = [map(&coupling.points[0]), map(&coupling.points[1])];
         let (middle, half) = (nalgebra::center(&a, &b), (b - a).normalize() * 0.1);
-        knot.points = vec![middle - half, middle + half];
+        coupling.points = vec![middle - half, middle + half];
     }
     model
 }
@@ -170,8 +176,8 @@ fn mobility_is_a_projective_invariant() {
     }
 }
 
-fn question() -> Question {
-    Question {
+fn criteria() -> Criteria {
+    Criteria {
         play_mm: 0.001,
         limit: SwayLimit::Share(0.02),
         modes: 4,
@@ -185,30 +191,30 @@ fn the_verdict_ignores_motion_scale_and_numbering() {
     let turned = |model: &Model, scale: f64| {
         let turn = nalgebra::Rotation3::from_euler_angles(0.3, -0.8, 1.9);
         let mut model = model.clone();
-        let points = model.knots.iter_mut().flat_map(|k| &mut k.points);
+        let points = model.couplings.iter_mut().flat_map(|k| &mut k.points);
         points.for_each(|p| *p = (turn * *p) * scale + Vector3::new(9.0, -4.0, 2.0));
         model
     };
     let renumbered = |model: &Model| {
         let last = model.bodies.len() - 1;
         let bodies = model.bodies.iter().rev().copied().collect();
-        let knots = model.knots.iter().rev().cloned().map(|mut knot| {
-            knot.bodies.iter_mut().for_each(|b| *b = last - *b);
-            knot.bodies.sort_unstable();
-            knot
+        let couplings = model.couplings.iter().rev().cloned().map(|mut coupling| {
+            coupling.bodies.iter_mut().for_each(|b| *b = last - *b);
+            coupling.bodies.sort_unstable();
+            coupling
         });
-        Model::new(bodies, knots.collect())
+        Model::new(bodies, couplings.collect())
     };
     for model in [torus(6, false), combescure(6, true), parallel(5, false, 0.2)] {
-        let judge = |model: &Model, question: &Question| {
-            judge(model, question, Fingerprint::of_nothing(), &mut ()).unwrap()
+        let judge = |model: &Model, criteria: &Criteria| {
+            judge(model, criteria, Fingerprint::of_nothing(), &mut ()).unwrap()
         };
-        let first = judge(&model, &question());
-        let scaled = Question { play_mm: 0.025, ..question() };
-        for (other, question) in
-            [(turned(&model, 25.0), scaled), (renumbered(&model), question())]
+        let first = judge(&model, &criteria());
+        let scaled = Criteria { play_mm: 0.025, ..criteria() };
+        for (other, criteria) in
+            [(turned(&model, 25.0), scaled), (renumbered(&model), criteria())]
         {
-            let second = judge(&other, &question);
+            let second = judge(&other, &criteria);
             assert_eq!(first.outcome(), second.outcome());
             assert_eq!(first.mobility(), second.mobility());
             for (a, b) in first.spectrum.iter().zip(&second.spectrum) {
@@ -239,8 +245,8 @@ fn one_thread_and_two_give_the_same_bits() {
 #[test]
 fn greedy_welds_are_as_few_as_the_mobility() {
     for model in [parallel(5, false, 0.2), radial(5, false, 0.1)] {
-        let question = Question { play_mm: 0.0, ..question() };
-        let steps = remedies(&model, &question, MOST_STEPS, &mut ()).unwrap();
+        let criteria = Criteria { play_mm: 0.0, ..criteria() };
+        let steps = remedies(&model, &criteria, MOST_STEPS, &mut ()).unwrap();
         let welds = steps.iter().filter(|r| matches!(r.cure, Cure::Weld(_)));
         let left: Vec<usize> = welds.map(|r| r.mobility_after).collect();
         assert_eq!(left, (0..7).rev().collect::<Vec<_>>());
@@ -253,7 +259,7 @@ fn stiff_joints_help_most_where_supports_are_few() {
     let one_side = (0..n).fold(torus(n, false), Model::with_held);
     let times = |model: &Model| {
         let verdict =
-            judge(model, &question(), Fingerprint::of_nothing(), &mut ()).unwrap();
+            judge(model, &criteria(), Fingerprint::of_nothing(), &mut ()).unwrap();
         let sway = verdict.sway().unwrap();
         let stiff = verdict.stiff.unwrap();
         let words = verdict.stiff_in_words().unwrap();
@@ -269,27 +275,28 @@ fn stiff_joints_help_most_where_supports_are_few() {
 
 #[test]
 fn degenerate_models_get_an_answer() {
-    let loose = |bodies: usize| Model::new((0..bodies).map(Body::Link).collect(), vec![]);
+    let loose =
+        |bodies: usize| Model::new((0..bodies).map(RigidBody::Link).collect(), vec![]);
     let judge = |model: &Model| {
-        judge(model, &question(), Fingerprint::of_nothing(), &mut ()).unwrap()
+        judge(model, &criteria(), Fingerprint::of_nothing(), &mut ()).unwrap()
     };
     assert_eq!(judge(&loose(1)).mobility(), Some(0));
     let two = judge(&loose(2));
     assert_eq!((two.mobility(), two.outcome()), (Some(6), Outcome::Mechanism));
     let mut held = torus(4, false);
-    held.knots.iter_mut().for_each(|knot| knot.held = true);
+    held.couplings.iter_mut().for_each(|coupling| coupling.held = true);
     let held = judge(&held);
     assert_eq!((held.mobility(), held.outcome()), (Some(0), Outcome::Rigid));
     assert!(held.findings().contains(&RigidityFinding::AllHeld));
     let mut apart = torus(4, false);
     let far = torus(4, false);
     let bodies = apart.bodies.len();
-    for mut knot in far.knots {
-        knot.bodies.iter_mut().for_each(|b| *b += bodies);
-        knot.points.iter_mut().for_each(|p| p.z += 50.0);
-        apart.knots.push(knot);
+    for mut coupling in far.couplings {
+        coupling.bodies.iter_mut().for_each(|b| *b += bodies);
+        coupling.points.iter_mut().for_each(|p| p.z += 50.0);
+        apart.couplings.push(coupling);
     }
-    let apart = Model::new([apart.bodies, far.bodies].concat(), apart.knots);
+    let apart = Model::new([apart.bodies, far.bodies].concat(), apart.couplings);
     assert_eq!(dof(&apart), 6, "two pieces");
 }
 
@@ -298,9 +305,9 @@ fn what_cannot_be_solved_is_no_verdict() {
     // Small and large: by a dense decomposition and by a factorisation.
     for n in [4, 12] {
         let mut model = torus(n, false);
-        model.knots[5].points[0].x = f64::NAN;
+        model.couplings[5].points[0].x = f64::NAN;
         let nothing = Fingerprint::of_nothing();
-        let verdict = judge(&model, &question(), nothing, &mut ()).unwrap();
+        let verdict = judge(&model, &criteria(), nothing, &mut ()).unwrap();
         assert_eq!(verdict.mobility(), None);
         assert!(!verdict.passes());
         assert_eq!(verdict.findings(), [RigidityFinding::NotSolved]);
@@ -327,14 +334,14 @@ fn a_verdict_can_be_stopped_wherever_it_is() {
     let nothing = Fingerprint::of_nothing;
     let stops = |patience: usize| {
         let mut watch = Impatient(patience.into());
-        judge(&model, &question(), nothing(), &mut watch) == Err(Stopped)
+        judge(&model, &criteria(), nothing(), &mut watch) == Err(Stopped)
     };
     let mut watch = Impatient(1000.into());
-    assert!(judge(&model, &question(), nothing(), &mut watch).is_ok());
+    assert!(judge(&model, &criteria(), nothing(), &mut watch).is_ok());
     let questions = 1000 - watch.0.get();
     assert!((0..questions).step_by(3).chain([questions - 1]).all(stops));
     let mut watch = Impatient(3.into());
-    assert_eq!(remedies(&model, &question(), 2, &mut watch), Err(Stopped));
+    assert_eq!(remedies(&model, &criteria(), 2, &mut watch), Err(Stopped));
 }
 
 #[test]

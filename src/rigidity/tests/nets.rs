@@ -1,7 +1,7 @@
 //! Nets of nodes with axes, as hinged fins or rigid strips.
 
 use crate::geometry::{Point3, Vector3, trig};
-use crate::rigidity::{Body, Knot, Model};
+use crate::rigidity::{Coupling, Model, RigidBody};
 
 /// A patch of a torus (radii 3 and 1, its outer side) with its normals, as hinged fins or
 /// rigid strips.
@@ -47,21 +47,21 @@ fn grid_by(
                 let at = j * n + i;
                 on[at].push(bodies.len());
                 on[at + step].push(bodies.len());
-                bodies.push(Body::Fin([at, at + step]));
+                bodies.push(RigidBody::Fin([at, at + step]));
             }
         }
     }
     if strips {
-        bodies = (0..n + m).map(Body::Strip).collect();
+        bodies = (0..n + m).map(RigidBody::Strip).collect();
     }
-    let knots = on.into_iter().enumerate().map(|(node, mut bodies)| {
+    let couplings = on.into_iter().enumerate().map(|(node, mut bodies)| {
         let (p, a) = place(node % n, node / n);
         let half = a.normalize() * 0.1;
         bodies.sort_unstable();
         let points = vec![p - half, p + half];
-        Knot { node, points, bodies, held: false, share: 0.5 }
+        Coupling { node, points, bodies, held: false, share: 0.5 }
     });
-    Model::new(bodies, knots.collect())
+    Model::new(bodies, couplings.collect())
 }
 
 /// A scatter that is the same everywhere, from -1 to 1.
@@ -130,9 +130,9 @@ pub(super) fn combescure(n: usize, strips: bool) -> Model {
 }
 
 pub(super) fn held_all_round(mut model: Model, n: usize) -> Model {
-    for knot in &mut model.knots {
-        let (i, j) = (knot.node % n, knot.node / n);
-        knot.held = i == 0 || j == 0 || i + 1 == n || j + 1 == n;
+    for coupling in &mut model.couplings {
+        let (i, j) = (coupling.node % n, coupling.node / n);
+        coupling.held = i == 0 || j == 0 || i + 1 == n || j + 1 == n;
     }
     model
 }
