@@ -10,7 +10,7 @@
 use crate::geometry::{Contour, Point2, Region, Vector2};
 use crate::lettering::{letter, width};
 use crate::parts::fit::Fit;
-use crate::parts::joint::{End, Opening, Slit};
+use crate::parts::lap::join::{End, Opening, Slit};
 use crate::parts::outline::{Closure, Piece, outline};
 use crate::parts::part::{Body, Mark as Engraved, MarkKind, Part};
 use crate::parts::unfold::FlatAxis;

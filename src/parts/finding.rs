@@ -1,280 +1,162 @@
-//! What can be wrong with parts.
+//! What can be wrong with connectors.
 
 use crate::diagnostic::{Located, Place, short};
 use miette::Diagnostic;
 use thiserror::Error;
 
-/// A fact found while making parts.
+/// A fact found while making single fins and their connectors.
 #[derive(Debug, Clone, PartialEq, Error, Diagnostic)]
 #[allow(missing_docs, reason = "each variant's message says what its fields are")]
-pub enum PartFinding {
+pub enum ConnectorFinding {
     #[error(
-        "half of the fins are shorter than {} mm, but a slit and the web beside it take {} mm \
-         of a sheet of {} mm; the whole structure is {size}",
-        short(*median_mm), short(2.0 * thickness_mm), short(*thickness_mm)
+        "{} and {} leave node {node} at {angle_deg:.1}°; they would have to stop {setback_mm:.1} \
+         mm from the axis",
+        fins[0], fins[1]
     )]
     #[diagnostic(
-        code(parts::model_too_small),
+        code(parts::fin_angle_too_small),
         help(
-            "if it was drawn in another unit, say so (an OBJ file is read as mm: try \
-             `--units m --scale 1:50`); else enlarge it (`--scale 10:1`) or use a thinner sheet"
-        )
-    )]
-    ModelTooSmall { median_mm: f64, thickness_mm: f64, size: String },
-
-    #[error("{part} would lie over itself when flat; it is split at node {node}")]
-    #[diagnostic(
-        code(parts::strip_overlaps_itself),
-        severity(Advice),
-        help("two strips take its place")
-    )]
-    OverlapsItself { part: String, node: usize },
-
-    #[error(
-        "nothing holds the end of {part} at node {node}: it cannot lap with the {others} \
-         other fins there and is set back by {setback_mm:.2} mm{}",
-        because(why.as_deref())
-    )]
-    #[diagnostic(
-        code(parts::strip_end_unheld),
-        severity(Warning),
-        help(
-            "glue it, or give the discs room: deeper fins, a larger scale, a thinner sheet"
-        )
-    )]
-    StripEndUnheld {
-        part: String,
-        node: usize,
-        others: usize,
-        setback_mm: f64,
-        why: Option<String>,
-    },
-
-    #[error("{first} and {second} both run through node {node} but do not cross there")]
-    #[diagnostic(
-        code(parts::strips_touch),
-        help(
-            "two strips can share an axis only by crossing, and discs (`--hubs {node}`) have no \
-             room; let one of them end there"
-        )
-    )]
-    StripsTouch { first: String, second: String, node: usize },
-
-    #[error("{count} strips run through node {node}")]
-    #[diagnostic(
-        code(parts::too_many_strips),
-        help(
-            "two strips can be half-lapped on one axis, and discs (`--hubs {node}`) have no \
-             room; let the others end there"
-        )
-    )]
-    TooManyStrips { node: usize, count: usize },
-
-    #[error(
-        "{first} and {second} cross at {angle_deg:.1}° at node {node}; the slit would be \
-         {width_mm:.1} mm wide"
-    )]
-    #[diagnostic(
-        code(parts::crossing_too_sharp),
-        help(
-            "at least {}° (`gate.crossing_least_deg`) are needed for the joint to hold; turn \
-             the mesh's edges apart",
+            "at least {}° (`gate.fin_angle_least_deg`) are needed for a web between their \
+             windows; turn the mesh's edges apart, or join them by half-laps (`--joint lap`)",
             short(*least_deg)
         )
     )]
-    CrossingTooSharp {
-        first: String,
-        second: String,
+    AngleTooSmall {
+        fins: [String; 2],
         node: usize,
         angle_deg: f64,
-        width_mm: f64,
+        setback_mm: f64,
         least_deg: f64,
     },
 
     #[error(
-        "{first} and {second} cross at {angle_deg:.1}° at node {node}; the joint lets them \
-         turn by {play_deg:.0}°"
+        "{part} is {length_mm:.1} mm long and has {web_mm:.2} mm between the connectors of nodes \
+         {} and {}",
+        nodes[0], nodes[1]
     )]
     #[diagnostic(
-        code(parts::crossing_oblique),
-        severity(Warning),
-        help("its angle must come from the rest of the structure; use a gauge or glue")
+        code(parts::connectors_touch),
+        help(
+            "at least {least_mm} mm are needed (`material.web_least_mm`): enlarge the structure \
+             {grow:.2} times, or use a thinner sheet"
+        )
     )]
-    CrossingOblique {
-        first: String,
-        second: String,
-        node: usize,
-        angle_deg: f64,
-        play_deg: f64,
+    Touch {
+        part: String,
+        nodes: [usize; 2],
+        length_mm: f64,
+        web_mm: f64,
+        least_mm: f64,
+        grow: f64,
     },
 
-    #[error("{part} keeps {web_mm:.2} mm behind its slit at node {node}")]
-    #[diagnostic(
-        code(parts::web_too_thin),
-        help(
-            "at least {least_mm} mm are needed (`material.web_least_mm`); give the fins more \
-             depth, or move `joint.lap_split` toward the other strip"
-        )
+    #[error(
+        "{count} fins lose more than a quarter of their length at their ends; {part} the most, \
+         {lost_mm:.1} of {length_mm:.1} mm"
     )]
-    WebTooThin { part: String, node: usize, web_mm: f64, least_mm: f64 },
-
-    #[error("{part} keeps only {web_mm:.2} mm behind its slit at node {node}")]
     #[diagnostic(
-        code(parts::web_thin),
+        code(parts::setback_too_long),
         severity(Warning),
         help(
-            "{wanted_mm} mm are recommended (`material.web_mm`); give the fins more depth"
+            "light falls through the gaps around the nodes; enlarge the structure {grow:.2} \
+             times, or use a sheet of {thinner_mm:.1} mm"
         )
     )]
-    WebThin { part: String, node: usize, web_mm: f64, wanted_mm: f64 },
-
-    #[error(
-        "{part} keeps {web_mm:.2} mm between its slits at nodes {} and {}",
-        fin[0], fin[1]
-    )]
-    #[diagnostic(
-        code(parts::slits_too_near),
-        help(
-            "at least {least_mm} mm are needed (`material.web_least_mm`); enlarge the \
-             structure, or use a thinner sheet"
-        )
-    )]
-    SlitsTooNear { part: String, fin: [usize; 2], web_mm: f64, least_mm: f64 },
-
-    #[error(
-        "{part} keeps only {web_mm:.2} mm between its slits at nodes {} and {}",
-        fin[0], fin[1]
-    )]
-    #[diagnostic(
-        code(parts::slits_near),
-        severity(Warning),
-        help(
-            "{wanted_mm} mm are recommended (`material.web_mm`); enlarge the structure, or \
-             use a thinner sheet"
-        )
-    )]
-    SlitsNear { part: String, fin: [usize; 2], web_mm: f64, wanted_mm: f64 },
-
-    #[error(
-        "{part} folds by {fold_deg:.1}° at node {node}: a bend of radius {radius_mm:.0} mm, \
-         {ratio:.0} times the thickness, would break it"
-    )]
-    #[diagnostic(
-        code(parts::bend_breaks),
-        help(
-            "the sheet takes {limit} times its thickness (`bend.crack`): {}",
-            relief(*grow, *thinner_mm)
-        )
-    )]
-    BendBreaks {
+    SetbackTooLong {
         part: String,
-        node: usize,
-        fold_deg: f64,
-        radius_mm: f64,
-        ratio: f64,
-        limit: f64,
+        nodes: [usize; 2],
+        count: usize,
+        length_mm: f64,
+        lost_mm: f64,
         grow: f64,
         thinner_mm: f64,
     },
 
     #[error(
-        "{part} folds by {fold_deg:.1}° at node {node}: a bend of radius {radius_mm:.0} mm, \
-         {ratio:.0} times the thickness"
+        "the fins of node {node} share {height_mm:.1} mm of its axis; {plates} plates with the \
+         webs beside them need {needed_mm:.1} mm"
     )]
     #[diagnostic(
-        code(parts::bend_tight),
-        severity(Warning),
+        code(parts::axis_too_short),
         help(
-            "a model stands {limit} times its thickness for weeks (`bend.model`); enlarge it \
-             {grow:.1} times, or bend the strip with heat"
+            "make the fins {needed_mm:.1} mm high there, enlarge the structure, or use thinner \
+             connectors (`joint.connector_thickness_mm`); discs (`--joint hub`) take least"
         )
     )]
-    BendTight {
-        part: String,
-        node: usize,
-        fold_deg: f64,
-        radius_mm: f64,
-        ratio: f64,
-        limit: f64,
-        grow: f64,
-    },
+    AxisTooShort { node: usize, height_mm: f64, plates: usize, needed_mm: f64 },
+
+    #[error("node {node} should get a hub, but there are {count} nodes, counted from 0")]
+    #[diagnostic(
+        code(parts::no_such_node),
+        help("correct `--hubs`, or `joint.hub_nodes` in the template")
+    )]
+    NoSuchNode { node: usize, count: usize },
+
+    #[error("the discs of node {node} are {diameter_mm:.1} mm wide and fit no sheet")]
+    #[diagnostic(
+        code(parts::disc_too_large),
+        help(
+            "turn the fins that leave it at {angle_deg:.1}° apart, use a thinner sheet of \
+             material, or add a sheet of more than {diameter_mm:.0} mm to the stock"
+        )
+    )]
+    DiscTooLarge { node: usize, diameter_mm: f64, angle_deg: f64 },
+
+    #[error("{count} names found no room on {}", some(parts))]
+    #[diagnostic(
+        code(parts::unlettered),
+        severity(Advice),
+        help(
+            "write them on by hand (`parts.csv` and `job.json` name all), or reduce \
+             `output.lettering_mm`"
+        )
+    )]
+    Unlettered { parts: Vec<String>, count: usize },
 
     #[error(
-        "{part} has to give way while it is put in after node {node}: its axes lean from each \
-         other, and it bends to a radius of {radius_mm:.0} mm, {ratio:.0} times the thickness"
+        "{first} and {second} would run {depth_mm:.2} mm into each other when assembled"
     )]
     #[diagnostic(
-        code(parts::insertion_tight),
-        severity(Warning),
+        code(parts::parts_collide),
         help(
-            "{limit} times is what a model stands (`bend.model`): zip it in slowly from one \
-             end, raise `material.clearance_mm`, make the fins less deep, or enlarge it"
+            "there is no room for plates of this thickness: enlarge the structure, or use a \
+             thinner sheet"
         )
     )]
-    InsertionTight { part: String, node: usize, radius_mm: f64, ratio: f64, limit: f64 },
-
-    #[error(
-        "{part} is {length_mm:.0} mm long, fits no sheet, and no fin of it can take a splice"
-    )]
-    #[diagnostic(
-        code(parts::no_place_for_splice),
-        help(
-            "a splice needs {needed_mm:.0} mm of fin between two slits and as much height; use \
-             a larger sheet, or a smaller scale"
-        )
-    )]
-    NoPlaceForSplice { part: String, length_mm: f64, needed_mm: f64 },
-
-    #[error("the cut line of {part} would cross itself near node {node}")]
-    #[diagnostic(
-        code(parts::outline_crosses_itself),
-        help("slits and edges are too near each other; enlarge the structure")
-    )]
-    OutlineCrossesItself { part: String, node: usize },
+    Collide { first: String, second: String, nodes: Vec<usize>, depth_mm: f64 },
 }
 
-/// Why discs do not hold an end.
-fn because(why: Option<&str>) -> String {
-    why.map(|why| format!("; discs have no room: {why}")).unwrap_or_default()
-}
-
-/// What would save a strip from breaking.
-fn relief(grow: f64, thinner_mm: f64) -> String {
-    if thinner_mm < 0.05 {
-        return "its slits leave hardly any length to bend; enlarge the structure"
-            .to_owned();
+/// The first few names and how many more.
+fn some(parts: &[String]) -> String {
+    const FEW: usize = 5;
+    let named = parts.iter().take(FEW).cloned().collect::<Vec<_>>().join(", ");
+    match parts.len().checked_sub(FEW) {
+        Some(more) if more > 0 => format!("{named} and {more} other parts"),
+        _ => named,
     }
-    format!(
-        "enlarge the structure {grow:.1} times, use a sheet of {thinner_mm:.1} mm, or one that \
-         folds"
-    )
 }
 
-impl Located for PartFinding {
+impl Located for ConnectorFinding {
     fn place(&self) -> Place {
         match self {
-            Self::OverlapsItself { part, node }
-            | Self::StripEndUnheld { part, node, .. }
-            | Self::WebTooThin { part, node, .. }
-            | Self::WebThin { part, node, .. }
-            | Self::BendBreaks { part, node, .. }
-            | Self::BendTight { part, node, .. }
-            | Self::InsertionTight { part, node, .. }
-            | Self::OutlineCrossesItself { part, node } => {
-                Place::part(part.clone()).at(*node)
+            Self::AngleTooSmall { fins, node, .. } => {
+                Place { parts: fins.to_vec(), ..Place::nodes([*node]) }
             }
-            Self::StripsTouch { first, second, node }
-            | Self::CrossingTooSharp { first, second, node, .. }
-            | Self::CrossingOblique { first, second, node, .. } => Place {
+            Self::Touch { part, nodes, .. }
+            | Self::SetbackTooLong { part, nodes, .. } => {
+                Place { parts: vec![part.clone()], ..Place::fins([*nodes]) }
+            }
+            Self::AxisTooShort { node, .. } | Self::DiscTooLarge { node, .. } => {
+                Place::nodes([*node])
+            }
+            Self::NoSuchNode { .. } => Place::default(),
+            Self::Unlettered { parts, .. } => {
+                Place { parts: parts.clone(), ..Place::default() }
+            }
+            Self::Collide { first, second, nodes, .. } => Place {
                 parts: vec![first.clone(), second.clone()],
-                ..Place::nodes([*node])
+                ..Place::nodes(nodes.clone())
             },
-            Self::ModelTooSmall { .. } => Place::default(),
-            Self::TooManyStrips { node, .. } => Place::nodes([*node]),
-            Self::SlitsTooNear { part, fin, .. } | Self::SlitsNear { part, fin, .. } => {
-                Place { parts: vec![part.clone()], ..Place::fins([*fin]) }
-            }
-            Self::NoPlaceForSplice { part, .. } => Place::part(part.clone()),
         }
     }
 }

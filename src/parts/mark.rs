@@ -6,7 +6,7 @@
 
 use crate::geometry::{Point2, Vector2};
 use crate::lettering::{letter, width};
-use crate::parts::joint::{Opening, Slit};
+use crate::parts::lap::join::{Opening, Slit};
 use crate::parts::outline::{Closure, Piece};
 use crate::parts::part::{Mark, MarkKind};
 use crate::parts::unfold::{FlatAxis, Fold};
@@ -32,13 +32,13 @@ pub struct Marking {
 }
 
 /// Least distance between a mark and a cut, mm.
-pub(super) const GAP: f64 = 1.0;
+pub(crate) const GAP: f64 = 1.0;
 
 /// The name is repeated after this many fins.
 const NAME_EVERY: usize = 6;
 
 /// All marks of one piece of a strip.
-pub(super) fn marks(
+pub(crate) fn marks(
     piece: &Piece,
     name: &str,
     folds: &[Fold],
@@ -140,7 +140,7 @@ enum Side {
 
 /// Where in its cell a text would best stand: shares of the cell along the fin and up.
 #[derive(Clone, Copy)]
-pub(super) struct Wish {
+pub(crate) struct Wish {
     pub along: f64,
     pub up: f64,
 }
@@ -192,7 +192,7 @@ fn fold_lines<'a>(
 }
 
 /// The part of a fin that can be written on, in the fin's own frame.
-pub(super) struct Cell {
+pub(crate) struct Cell {
     origin: Point2,
     along: Vector2,
     up: Vector2,
@@ -203,7 +203,7 @@ pub(super) struct Cell {
 }
 
 impl Cell {
-    pub(super) fn new(piece: &Piece, fin: usize) -> Self {
+    pub(crate) fn new(piece: &Piece, fin: usize) -> Self {
         let (a, b) = (&piece.axes[fin], &piece.axes[fin + 1]);
         let last = piece.axes.len() - 1;
         let left = clear(piece, fin, fin == 0, 0, |slit| slit.after);
@@ -226,7 +226,7 @@ impl Cell {
     }
 
     /// Strokes of a text as near as can be to its wished place, if it fits at all.
-    pub(super) fn write(
+    pub(crate) fn write(
         &mut self,
         text: &str,
         wish: Wish,

@@ -4,50 +4,54 @@
 //! them, splices what is too long for the stock and writes on each part what the maker
 //! needs. Kerf is not its business, nor where parts lie on a sheet.
 
-mod bend;
+mod assembly;
+mod clearance;
 mod connector;
 mod coupon;
+mod fin;
 mod finding;
 mod fit;
-mod hold;
-mod insertion;
-mod joint;
+mod hinge;
+mod hub;
+mod lap;
 mod mark;
 mod outline;
 mod part;
-mod rank;
-mod seam;
 mod setback;
-mod splice;
-mod strength;
+mod star;
+mod steps;
 mod unfold;
 
-pub use bend::bends;
-pub use connector::{
-    Around, Built, Connector, ConnectorFinding, Copy, Form, Hinge, Hit, Hub, Plates,
-    Role, Snug, Spoke, Step, collisions, connected, copies, inner_radius, levers, steps,
-    together,
-};
+pub use assembly::built::{Built, Form, Hit, Plates, Role, Snug, collisions};
+pub use assembly::collisions::together;
+pub use assembly::copy::{Copy, copies};
+pub use connector::{Connector, connected, levers};
 pub use coupon::{Fitted, Mark as CouponMark, coupon};
-pub use finding::PartFinding;
+pub use finding::ConnectorFinding;
 pub use fit::Fit;
-pub use hold::{Hubs, Lapped, lapped};
-pub use insertion::{Insertion, insertion};
-pub use joint::{End, Joinery, Joints, Opening, Slit, join};
+pub use hinge::plate::Hinge;
+pub use hub::dimensions::{Hub, inner_radius};
+pub use lap::bend::bends;
+pub use lap::finding::PartFinding;
+pub use lap::insertion::{Insertion, insertion};
+pub use lap::join::{End, Joinery, Joints, Opening, Slit, join};
+pub use lap::placement::{Hubs, Lapped, lapped};
 pub use mark::{FoldMarks, Marking};
 pub use outline::{Closure, HeldEnd, Piece, outline};
 pub use part::{Body, ConnectorBody, FinBody, Mark, MarkKind, Part, StripBody, Tip};
 pub use setback::{clear_of, setback};
+pub use star::{Around, Spoke};
+pub use steps::{Step, steps};
 pub use unfold::{FlatAxis, FlatStrip, Fold, unfold};
 
 use crate::diagnostic::Finding;
 use crate::geometry::{Point2, Region, predicates};
 use crate::structure::Structure;
 use crate::tolerance::ARC_SAGITTA_MM;
-use hold::{Plan, plan};
-use splice::Whole;
+use lap::placement::{Plan, plan};
+use lap::splice::{self, Whole};
+use lap::strength::{self, Slitted};
 use std::collections::BTreeMap;
-use strength::Slitted;
 
 /// What parts are made for.
 pub struct Making<'a> {

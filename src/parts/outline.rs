@@ -2,7 +2,7 @@
 
 use crate::geometry::{Contour, Point2, Vector2, Vertex, trig};
 use crate::parts::fit::Fit;
-use crate::parts::joint::{End, Opening, Slit};
+use crate::parts::lap::join::{End, Opening, Slit};
 use crate::parts::unfold::FlatAxis;
 use std::collections::BTreeMap;
 use std::f64::consts::FRAC_PI_8;
@@ -41,7 +41,7 @@ impl Closure {
     }
 
     /// How far from its axis the part stops, mm.
-    pub(super) const fn setback(&self) -> f64 {
+    pub(crate) const fn setback(&self) -> f64 {
         match self {
             Self::End(End::SetBack(distance) | End::Held(distance)) => *distance,
             Self::Held(held) => held.setback,
@@ -109,14 +109,14 @@ fn inner(cut: &[Vertex]) -> Vec<Vertex> {
 }
 
 /// A chain of corners walked the other way.
-pub(super) fn reversed(chain: &[Vertex]) -> Vec<Vertex> {
+pub(crate) fn reversed(chain: &[Vertex]) -> Vec<Vertex> {
     let count = chain.len();
     let bulge = |k: usize| if k > 0 { -chain[k - 1].bulge } else { 0.0 };
     (0..count).rev().map(|k| Vertex::arc(chain[k].point, bulge(k))).collect()
 }
 
 /// Takes out corners that lie on the one before, as where a relief has no radius.
-pub(super) fn without_doubles(chain: &mut Vec<Vertex>) {
+pub(crate) fn without_doubles(chain: &mut Vec<Vertex>) {
     chain.dedup_by(|after, before| {
         let same = after.point == before.point;
         if same {

@@ -1,8 +1,9 @@
 //! A part: one flat shape to be cut, with its marks and its way back into space.
 
 use crate::geometry::{Point2, Region, Vector2};
-use crate::parts::connector::{Connector, Copy};
-use crate::parts::joint::Slit;
+use crate::parts::assembly::copy::Copy;
+use crate::parts::connector::Connector;
+use crate::parts::lap::join::Slit;
 use crate::parts::unfold::{FlatAxis, Fold};
 
 /// A flat shape of sheet material, nominal: kerf is not in it yet. Its labelled face

@@ -172,7 +172,7 @@ impl FlatStrip {
 
 /// Unfolds a chain, split at the smallest fold as often as it takes that no piece lies
 /// over itself. The second value names the nodes of the cuts.
-pub(super) fn unfold_without_overlap(
+pub(crate) fn unfold_without_overlap(
     structure: &Structure,
     chain: &[usize],
     closed: bool,

@@ -6,41 +6,24 @@
 //! its own angle gauge. A *hinge* is a stack of eye plates on a rod, two for each fin
 //! (fabrication notes §4.5). A node with one fin needs neither.
 
-mod assembly;
-mod built;
-mod copy;
-mod disc;
-mod fin;
-mod finding;
-mod hinge;
-mod order;
-mod room;
-mod seat;
-mod solid;
-mod spoke;
-mod tongue;
-
-pub use assembly::together;
-pub use built::{Built, Form, Hit, Plates, Role, Snug, collisions};
-pub use copy::{Copy, copies};
-pub use finding::ConnectorFinding;
-pub use hinge::Hinge;
-pub use order::{Step, steps};
-pub(super) use room::hub_lacks;
-pub use seat::{Hub, inner_radius};
-pub use spoke::{Around, Spoke};
-pub(super) use tongue::held_end;
-
 use crate::diagnostic::{Finding, passes};
 use crate::geometry::{Contour, Region};
+use crate::parts::assembly::built::collisions;
+use crate::parts::assembly::copy::copies;
+use crate::parts::clearance;
+use crate::parts::fin::Seated;
 use crate::parts::fit::Fit;
-use crate::parts::hold::Plan;
+use crate::parts::hinge::plate::Hinge;
+use crate::parts::hub::dimensions::Hub;
+use crate::parts::hub::disc;
+use crate::parts::lap::placement::Plan;
 use crate::parts::part::{Body, ConnectorBody, FinBody, Part};
+use crate::parts::star::Around;
+use crate::parts::steps::steps;
 use crate::parts::unfold::{FlatStrip, unfold};
 use crate::parts::{Made, Making, crossing_outline};
 use crate::structure::Structure;
 use crate::tolerance::CONGRUENT_MM;
-use fin::Seated;
 use std::collections::BTreeMap;
 
 /// What holds the fins of a node.
@@ -116,7 +99,7 @@ pub fn connected(
 }
 
 /// Adds the discs of a plan of strips to their parts.
-pub(super) fn discs(plan: &Plan, parts: &mut Vec<Part>, making: &Making) -> Vec<Finding> {
+pub(crate) fn discs(plan: &Plan, parts: &mut Vec<Part>, making: &Making) -> Vec<Finding> {
     if plan.hubs.is_empty() {
         return Vec::new();
     }
@@ -136,15 +119,15 @@ pub(super) fn discs(plan: &Plan, parts: &mut Vec<Part>, making: &Making) -> Vec<
 }
 
 /// What holds the parts of a structure.
-struct Holding<'a> {
-    structure: &'a Structure,
-    making: &'a Making<'a>,
+pub(crate) struct Holding<'a> {
+    pub structure: &'a Structure,
+    pub making: &'a Making<'a>,
     /// By node.
-    connectors: Vec<Option<Connector>>,
+    pub connectors: Vec<Option<Connector>>,
     /// The part of each fin.
-    names: Vec<String>,
+    pub names: Vec<String>,
     /// What slits take of a fin at its first node, mm.
-    slits: BTreeMap<[usize; 2], f64>,
+    pub slits: BTreeMap<[usize; 2], f64>,
 }
 
 impl Holding<'_> {
@@ -155,14 +138,14 @@ impl Holding<'_> {
         parts: &mut Vec<Part>,
         mut unlettered: Vec<(String, usize)>,
     ) -> Vec<Finding> {
-        let mut facts = room::findings(self);
+        let mut facts = clearance::findings(self);
         let first = parts.len();
         for connector in self.connectors.iter().flatten() {
             let (part, missing) = plate(connector, self.making, &self.names);
             unlettered.push((part.id.clone(), missing));
             parts.push(part);
         }
-        facts.extend(room::unlettered(&unlettered));
+        facts.extend(clearance::unlettered(&unlettered));
         let mut findings: Vec<Finding> = facts.into_iter().map(Finding::from).collect();
         let crossing = parts[first..].iter().filter_map(crossing_outline);
         findings.extend(crossing.map(Finding::from));

@@ -2,19 +2,20 @@
 
 use crate::geometry::Point2;
 use crate::parts::Making;
-use crate::parts::connector::finding::ConnectorFinding;
-use crate::parts::connector::hinge::Hinge;
-use crate::parts::connector::seat::Hub;
-use crate::parts::connector::spoke::{Around, Spoke, sectors, shortest};
-use crate::parts::connector::{Connector, Holding, disc};
+use crate::parts::connector::{Connector, Holding};
+use crate::parts::finding::ConnectorFinding;
 use crate::parts::fit::Fit;
+use crate::parts::hinge::plate::Hinge;
+use crate::parts::hub::dimensions::Hub;
+use crate::parts::hub::disc;
+use crate::parts::star::{Around, Spoke, sectors, shortest};
 use crate::structure::Structure;
 use crate::tolerance::{ARC_SAGITTA_MM, SAME_LENGTH_MM};
 
 /// Most of a fin that setbacks may take before it is said.
 const SETBACK_SHARE: f64 = 0.25;
 
-pub(super) fn findings(holding: &Holding) -> Vec<ConnectorFinding> {
+pub(crate) fn findings(holding: &Holding) -> Vec<ConnectorFinding> {
     let (making, fit) = (holding.making, holding.making.fit);
     let name = |fin: usize| holding.names[fin].clone();
     let mut all = Vec::new();
@@ -36,7 +37,7 @@ pub(super) fn findings(holding: &Holding) -> Vec<ConnectorFinding> {
 
 /// Why a hub has no room, if so; `taken` is what cuts take at the other end of the fin to a
 /// node, mm.
-pub(in crate::parts) fn hub_lacks(
+pub(crate) fn hub_lacks(
     structure: &Structure,
     hub: &Hub,
     taken: &dyn Fn(usize) -> f64,
@@ -65,7 +66,7 @@ pub(in crate::parts) fn hub_lacks(
 }
 
 /// What is said of names that found no room, all at once: on a small model there are many.
-pub(super) fn unlettered(missing: &[(String, usize)]) -> Option<ConnectorFinding> {
+pub(crate) fn unlettered(missing: &[(String, usize)]) -> Option<ConnectorFinding> {
     let parts: Vec<String> =
         missing.iter().filter(|(_, n)| *n > 0).map(|(part, _)| part.clone()).collect();
     let count = missing.iter().map(|(_, count)| count).sum();

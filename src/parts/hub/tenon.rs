@@ -5,13 +5,14 @@
 //! notched from its bottom and top edge to take in the discs' rings.
 
 use crate::geometry::{Point2, Vector2, Vertex, trig};
-use crate::parts::connector::{Hub, Spoke};
+use crate::parts::hub::dimensions::Hub;
 use crate::parts::outline::{HeldEnd, reversed, without_doubles};
+use crate::parts::star::Spoke;
 use crate::parts::unfold::FlatAxis;
 use std::f64::consts::FRAC_PI_8;
 
 /// One end of a fin in its own frame.
-pub(super) struct EndFrame<'a> {
+pub(crate) struct EndFrame<'a> {
     pub axis: &'a FlatAxis,
     /// Unit vector across the axis, into the fin.
     pub inward: Vector2,
@@ -21,29 +22,29 @@ pub(super) struct EndFrame<'a> {
 
 impl<'a> EndFrame<'a> {
     /// At a left (0) or right (1) end.
-    pub(super) fn new(axis: &'a FlatAxis, end: usize, rise: [f64; 2]) -> Self {
+    pub(crate) fn new(axis: &'a FlatAxis, end: usize, rise: [f64; 2]) -> Self {
         let inward = if end == 0 { axis.right() } else { -axis.right() };
         Self { axis, inward, rise }
     }
 
-    pub(super) fn at(&self, s: f64, z: f64) -> Point2 {
+    pub(crate) fn at(&self, s: f64, z: f64) -> Point2 {
         self.axis.foot + self.inward * s + self.axis.up * z
     }
 
     /// On the bottom (0) or top (1) edge.
-    pub(super) fn on_edge(&self, s: f64, edge: usize) -> Point2 {
+    pub(crate) fn on_edge(&self, s: f64, edge: usize) -> Point2 {
         let start = [-self.axis.below, self.axis.above][edge];
         self.at(s, start + self.rise[edge] * s)
     }
 
     /// 1 at a right end, where the way up runs counter-clockwise, -1 at a left one.
-    pub(super) fn turn(&self) -> f64 {
+    pub(crate) fn turn(&self) -> f64 {
         -self.inward.dot(&self.axis.right()).signum()
     }
 }
 
 /// The end from the bottom edge over the end edge to the top edge.
-pub(super) fn tongue(frame: &EndFrame, hub: &Hub, relief: f64) -> Vec<Vertex> {
+pub(crate) fn tongue(frame: &EndFrame, hub: &Hub, relief: f64) -> Vec<Vertex> {
     let mut chain = notch(frame, hub, 0, relief);
     chain.extend(reversed(&notch(frame, hub, 1, relief)));
     without_doubles(&mut chain);
@@ -51,7 +52,7 @@ pub(super) fn tongue(frame: &EndFrame, hub: &Hub, relief: f64) -> Vec<Vertex> {
 }
 
 /// The left (0) or right (1) end of a strip on its last axis; `next` is the axis before it.
-pub(in crate::parts) fn held_end(
+pub(crate) fn held_end(
     [axis, next]: [&FlatAxis; 2],
     end: usize,
     hub: &Hub,
@@ -97,13 +98,13 @@ fn notch(frame: &EndFrame, hub: &Hub, edge: usize, relief: f64) -> Vec<Vertex> {
 }
 
 /// Heights along the axis that notches leave for letters, whatever the slope of the edges.
-pub(super) fn writable(hub: &Hub, spoke: &Spoke, relief: f64) -> [f64; 2] {
+pub(crate) fn writable(hub: &Hub, spoke: &Spoke, relief: f64) -> [f64; 2] {
     let [low, high] = hub.between();
     let spare = |edge: usize| relief + spoke.rise[edge].abs() * hub.radius;
     [low + spare(0), high - spare(1)]
 }
 
 /// Bulge of a quarter circle, if there is one.
-pub(super) fn quarter(radius: f64) -> f64 {
+pub(crate) fn quarter(radius: f64) -> f64 {
     if radius > 0.0 { trig::tan(FRAC_PI_8) } else { 0.0 }
 }

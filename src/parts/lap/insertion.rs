@@ -7,7 +7,7 @@
 //! The bend that takes is that of a cantilever as long as the fin: radius = L² / (3 δ).
 
 use crate::geometry::Vector3;
-use crate::parts::joint::{Opening, Slit};
+use crate::parts::lap::join::{Opening, Slit};
 use crate::parts::part::StripBody;
 use crate::structure::Structure;
 

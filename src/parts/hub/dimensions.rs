@@ -6,8 +6,8 @@
 //! in the ring (correction (iii) of the fabrication notes §4).
 
 use crate::geometry::trig;
-use crate::parts::connector::spoke::{Around, sectors};
 use crate::parts::fit::Fit;
+use crate::parts::star::{Around, sectors};
 use std::f64::consts::PI;
 
 /// The two discs of a node. Lengths in mm, heights along the axis from the base mesh.

@@ -8,13 +8,13 @@
 
 use crate::geometry::{Contour, Point2, Region, Vertex, trig};
 use crate::lettering::{letter, width};
-use crate::parts::connector::disc::circle;
-use crate::parts::connector::spoke::Around;
 use crate::parts::fit::Fit;
+use crate::parts::hub::disc::circle;
 use crate::parts::mark::GAP;
 use crate::parts::outline::without_doubles;
 use crate::parts::part::{Mark, MarkKind};
 use crate::parts::setback::clear_of;
+use crate::parts::star::Around;
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_8, PI};
 
 /// The eye plates of a node. Lengths in mm, heights along the axis from the base mesh.
@@ -99,7 +99,7 @@ impl Hinge {
     }
 
     /// Shape of a plate: its origin on the axis, its tail along x, labelled face up.
-    pub(super) fn region(&self, fit: &Fit) -> Region {
+    pub(crate) fn region(&self, fit: &Fit) -> Region {
         let quarter = trig::tan(FRAC_PI_8);
         let (r, tail, half) = (self.radius, self.tail(), self.width / 2.0);
         let relief = fit.relief.min(half);
@@ -125,7 +125,7 @@ impl Hinge {
     }
 
     /// The node's name, across the plate between eye and slit or along the tail.
-    pub(super) fn marks(&self, name: &str, height: f64) -> Option<Mark> {
+    pub(crate) fn marks(&self, name: &str, height: f64) -> Option<Mark> {
         let room = |size: f64| Some((width(name, size).ok()?, size));
         let sizes = [1.0, 0.8, 0.65, 0.5].map(|share| height * share);
         let [from, to] = [self.hole + GAP, self.floor - 2.0 * GAP];

@@ -10,7 +10,7 @@ use std::collections::VecDeque;
 
 /// The strips by rank, and the rank of each. Strips that cross are two-coloured; the
 /// colour whose strips are longer goes in first and carries the others.
-pub(super) fn ranks(
+pub(crate) fn ranks(
     strips: &[FlatStrip],
     laps: impl Iterator<Item = [usize; 2]>,
 ) -> (Vec<usize>, Vec<usize>) {

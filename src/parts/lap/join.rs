@@ -5,10 +5,10 @@
 //! way, its end is set back, and stands in discs if they have room.
 
 use crate::geometry::Vector3;
-use crate::parts::finding::PartFinding;
 use crate::parts::fit::Fit;
-use crate::parts::hold::Hubs;
-use crate::parts::rank::ranks;
+use crate::parts::lap::finding::PartFinding;
+use crate::parts::lap::placement::Hubs;
+use crate::parts::lap::rank::ranks;
 use crate::parts::unfold::FlatStrip;
 use crate::structure::{FinTree, Structure};
 use std::collections::BTreeMap;

@@ -1,6 +1,6 @@
 //! Where closed strips are opened.
 
-use crate::parts::hold::Hubs;
+use crate::parts::lap::placement::Hubs;
 use crate::structure::{Strip, Structure};
 use crate::tolerance::SAME_FOLD;
 
@@ -10,7 +10,7 @@ use crate::tolerance::SAME_FOLD;
 /// equal (rings of a dome) it goes to a node where no other strip runs through, which discs
 /// would cut, then to one whose other strips cross fewest seams so far: none should lose all
 /// of its joints.
-pub(super) fn opened(structure: &Structure, hubs: &Hubs) -> Vec<Vec<usize>> {
+pub(crate) fn opened(structure: &Structure, hubs: &Hubs) -> Vec<Vec<usize>> {
     let strips = structure.strips();
     let mut through = vec![Vec::new(); structure.nodes().len()];
     for (index, strip) in strips.iter().enumerate() {

@@ -8,11 +8,11 @@
 //! inside both faces of a plate and in its middle.
 
 use crate::geometry::{Point2, Point3, Vector2, Vector3, predicates, trig};
-use crate::parts::connector::built::{Built, Form, Hit, Plates, Role, Snug};
-use crate::parts::connector::copy::Copy;
-use crate::parts::connector::solid::Plate;
-use crate::parts::connector::spoke::shortest;
+use crate::parts::assembly::built::{Built, Form, Hit, Plates, Role, Snug};
+use crate::parts::assembly::copy::Copy;
+use crate::parts::assembly::solid::Plate;
 use crate::parts::part::Tip;
+use crate::parts::star::shortest;
 use crate::structure::Structure;
 use crate::tolerance::{NO_LENGTH_MM, PLATES_TOUCH_MM};
 use rstar::primitives::{GeomWithData, Rectangle};

@@ -6,11 +6,11 @@
 
 use crate::geometry::offset::{offset_chain, rounded};
 use crate::geometry::{Point2, Vector2, Vertex, trig};
-use crate::parts::connector::held_end;
-use crate::parts::finding::PartFinding;
 use crate::parts::fit::Fit;
-use crate::parts::hold::Hubs;
-use crate::parts::joint::{End, Joints};
+use crate::parts::hub::tenon::held_end;
+use crate::parts::lap::finding::PartFinding;
+use crate::parts::lap::join::{End, Joints};
+use crate::parts::lap::placement::Hubs;
 use crate::parts::outline::{Closure, Piece, outline};
 use crate::parts::unfold::FlatStrip;
 use crate::tolerance::{ARC_SAGITTA_MM, SAME_LENGTH_MM};
@@ -20,7 +20,7 @@ use std::f64::consts::PI;
 const FLANK: f64 = 15.0 * PI / 180.0;
 
 /// A strip with its joints, ready to be cut into pieces.
-pub(super) struct Whole<'a> {
+pub(crate) struct Whole<'a> {
     /// Name for messages.
     pub name: &'a str,
     /// The flat strip.
@@ -37,7 +37,7 @@ pub(super) struct Whole<'a> {
 ///
 /// # Errors
 /// [`PartFinding::NoPlaceForSplice`] if no fin can take a splice where one is needed.
-pub(super) fn pieces(
+pub(crate) fn pieces(
     whole: &Whole,
     fits: &dyn Fn(&[Point2]) -> bool,
 ) -> Result<Vec<Piece>, PartFinding> {
@@ -97,7 +97,7 @@ struct Tail {
 
 impl Whole<'_> {
     /// The strip in one piece.
-    pub(super) fn uncut(&self) -> Piece {
+    pub(crate) fn uncut(&self) -> Piece {
         self.piece([None, None])
     }
 

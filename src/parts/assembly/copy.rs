@@ -1,6 +1,8 @@
 //! Where the copies of a connector's plate sit in space.
 
-use crate::parts::connector::{Connector, Hinge, Hub};
+use crate::parts::connector::Connector;
+use crate::parts::hinge::plate::Hinge;
+use crate::parts::hub::dimensions::Hub;
 
 /// One plate of a node, placed across its axis.
 #[derive(Debug, Clone, PartialEq)]

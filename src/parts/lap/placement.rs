@@ -4,11 +4,13 @@
 //! strips end there, those that ran through are cut. The others are asked again, for a
 //! closed strip that was cut has no seam any more.
 
-use crate::parts::connector::{Around, Hub, hub_lacks};
-use crate::parts::finding::PartFinding;
+use crate::parts::clearance::hub_lacks;
 use crate::parts::fit::Fit;
-use crate::parts::joint::{End, Joinery, join};
-use crate::parts::seam::opened;
+use crate::parts::hub::dimensions::Hub;
+use crate::parts::lap::finding::PartFinding;
+use crate::parts::lap::join::{End, Joinery, join};
+use crate::parts::lap::seam::opened;
+use crate::parts::star::Around;
 use crate::parts::unfold::{FlatStrip, unfold_without_overlap};
 use crate::structure::{Strip, Structure};
 use std::collections::{BTreeMap, BTreeSet};
@@ -17,7 +19,7 @@ use std::collections::{BTreeMap, BTreeSet};
 pub type Hubs = BTreeMap<usize, Hub>;
 
 /// A structure of strips as they will be cut and joined.
-pub(super) struct Plan {
+pub(crate) struct Plan {
     /// The structure with its strips as they are cut.
     pub structure: Structure,
     /// The strips in the plane.
@@ -31,7 +33,7 @@ pub(super) struct Plan {
 }
 
 /// Cuts and joins the strips of a structure; the nodes `asked` get hubs whatever meets there.
-pub(super) fn plan(structure: &Structure, asked: &[usize], fit: &Fit) -> Plan {
+pub(crate) fn plan(structure: &Structure, asked: &[usize], fit: &Fit) -> Plan {
     let fins = structure.fins().iter().enumerate();
     let index: BTreeMap<[usize; 2], usize> = fins.map(|(k, fin)| (*fin, k)).collect();
     let hub =
@@ -144,7 +146,7 @@ fn chain(flat: &FlatStrip) -> Strip {
 
 impl Plan {
     /// What slits take of each fin at its nodes, by node and the one at the other end, mm.
-    pub(super) fn slits(&self) -> BTreeMap<[usize; 2], f64> {
+    pub(crate) fn slits(&self) -> BTreeMap<[usize; 2], f64> {
         let mut taken = BTreeMap::new();
         for (flat, joints) in self.flat.iter().zip(&self.joinery.joints) {
             for (&place, slit) in &joints.slits {

@@ -2,18 +2,20 @@
 //! or slits for eye plates.
 
 use crate::geometry::{Contour, Vertex};
-use crate::parts::connector::tongue::{EndFrame, quarter, tongue, writable};
-use crate::parts::connector::{Connector, Hinge, Spoke};
+use crate::parts::connector::Connector;
 use crate::parts::fit::Fit;
-use crate::parts::joint::End;
+use crate::parts::hinge::plate::Hinge;
+use crate::parts::hub::tenon::{EndFrame, quarter, tongue, writable};
+use crate::parts::lap::join::End;
 use crate::parts::mark::{Cell, Wish};
 use crate::parts::outline::{Closure, Piece, reversed, without_doubles};
 use crate::parts::part::{Mark, MarkKind};
+use crate::parts::star::Spoke;
 use crate::parts::unfold::FlatStrip;
 use std::collections::BTreeMap;
 
 /// A fin between its two connectors.
-pub(super) struct Seated<'a> {
+pub(crate) struct Seated<'a> {
     /// The fin in the plane: two axes.
     pub flat: &'a FlatStrip,
     /// What it is held by at its two ends; a fin that ends alone is held by nothing.
@@ -24,7 +26,7 @@ pub(super) struct Seated<'a> {
 
 impl Seated<'_> {
     /// The outline, counter-clockwise: bottom edge, right end, top edge, left end.
-    pub(super) fn outline(&self) -> Contour {
+    pub(crate) fn outline(&self) -> Contour {
         let [left, right] = [0, 1].map(|end| self.end(end));
         let mut vertices = reversed(&left);
         vertices.extend(right);
@@ -70,7 +72,7 @@ impl Seated<'_> {
 
     /// Its name with an arrow up, and at both ends the name of the node; the second value
     /// counts texts that found no room.
-    pub(super) fn marks(&self, name: &str, height: f64) -> (Vec<Mark>, usize) {
+    pub(crate) fn marks(&self, name: &str, height: f64) -> (Vec<Mark>, usize) {
         let mut cell = Cell::new(&self.writable(), 0);
         let node = |end: usize| format!("N{}", self.flat.axes[end].node);
         let texts = [

@@ -6,8 +6,8 @@
 
 use crate::geometry::{Contour, Point2, Region, Vector2, Vertex, trig};
 use crate::lettering::{letter, width};
-use crate::parts::connector::seat::Hub;
 use crate::parts::fit::Fit;
+use crate::parts::hub::dimensions::Hub;
 use crate::parts::mark::GAP;
 use crate::parts::outline::without_doubles;
 use crate::parts::part::{Mark, MarkKind};
@@ -39,7 +39,7 @@ impl Ray {
 }
 
 /// The shape of a hub's discs.
-pub(super) fn region(hub: &Hub, fit: &Fit) -> Region {
+pub(crate) fn region(hub: &Hub, fit: &Fit) -> Region {
     let windows = hub.around.spokes.iter().map(|spoke| window(hub, fit, spoke.bearing));
     let key = key(hub, fit).map(|center| circle(center, KEY_RADIUS).reversed());
     let rod = circle(Point2::origin(), hub.hole).reversed();
@@ -48,7 +48,7 @@ pub(super) fn region(hub: &Hub, fit: &Fit) -> Region {
 }
 
 /// Counter-clockwise, from the right.
-pub(super) fn circle(center: Point2, radius: f64) -> Contour {
+pub(crate) fn circle(center: Point2, radius: f64) -> Contour {
     let quarter = trig::tan(FRAC_PI_8);
     let ways = [Vector2::x(), Vector2::y(), -Vector2::x(), -Vector2::y()];
     let vertices = ways.map(|way| Vertex::arc(center + way * radius, quarter));
@@ -107,7 +107,7 @@ fn key(hub: &Hub, fit: &Fit) -> Option<Point2> {
 
 /// Engraved on the upper face: the node, and beside each window the fin that stands there.
 /// The second value counts texts that found no room.
-pub(super) fn marks(
+pub(crate) fn marks(
     hub: &Hub,
     fit: &Fit,
     name: &str,

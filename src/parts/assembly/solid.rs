@@ -6,7 +6,7 @@ use std::f64::consts::PI;
 
 /// A convex flat outline, as thick on both sides of its plane as it is said.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) struct Plate {
+pub(crate) struct Plate {
     /// The corners of both faces.
     corners: Vec<Point3>,
     /// Directions of the outline's sides, none twice, and across the plane.
@@ -16,7 +16,7 @@ pub(super) struct Plate {
 
 impl Plate {
     /// From the outline in its middle plane; `normal` of unit length.
-    pub(super) fn new(outline: &[Point3], normal: Vector3, thickness: f64) -> Self {
+    pub(crate) fn new(outline: &[Point3], normal: Vector3, thickness: f64) -> Self {
         let half = normal * (thickness / 2.0);
         let corners = outline.iter().flat_map(|p| [p - half, p + half]).collect();
         let next = outline.iter().cycle().skip(1);
@@ -32,7 +32,7 @@ impl Plate {
     }
 
     /// A round plate, replaced by a polygon around it.
-    pub(super) fn round(
+    pub(crate) fn round(
         center: Point3,
         axis: Vector3,
         radius: f64,
@@ -46,7 +46,7 @@ impl Plate {
 
     /// The corners of a polygon around half a circle, the half toward the first direction:
     /// from the second direction over the first.
-    pub(super) fn arc(center: Point3, [u, v]: [Vector3; 2], radius: f64) -> Vec<Point3> {
+    pub(crate) fn arc(center: Point3, [u, v]: [Vector3; 2], radius: f64) -> Vec<Point3> {
         const SIDES: u32 = 12;
         let step = PI / f64::from(SIDES);
         let around = radius / trig::cos(step / 2.0);
@@ -58,7 +58,7 @@ impl Plate {
     }
 
     /// Lowest and highest corner of the box around it.
-    pub(super) fn bounds(&self) -> [Point3; 2] {
+    pub(crate) fn bounds(&self) -> [Point3; 2] {
         let first = self.corners.first().copied().unwrap_or_else(Point3::origin);
         let low = self.corners.iter().fold(first, |low, p| low.inf(p));
         let high = self.corners.iter().fold(first, |high, p| high.sup(p));
@@ -67,7 +67,7 @@ impl Plate {
 
     /// How far two plates reach into each other: the least way that would part them; 0 or
     /// less if they are apart. Exact, by all axes that can separate two convex polyhedra.
-    pub(super) fn overlap(&self, other: &Self) -> f64 {
+    pub(crate) fn overlap(&self, other: &Self) -> f64 {
         let faces = |plate: &Self| {
             let sides = plate.edges.iter().skip(1).map(|edge| edge.cross(&plate.normal));
             sides.chain([plate.normal]).collect::<Vec<_>>()

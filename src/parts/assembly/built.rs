@@ -2,8 +2,10 @@
 //! was drawn.
 
 use crate::geometry::Point2;
-use crate::parts::connector::finding::ConnectorFinding;
-use crate::parts::connector::{Connector, Copy, together};
+use crate::parts::assembly::collisions::together;
+use crate::parts::assembly::copy::Copy;
+use crate::parts::connector::Connector;
+use crate::parts::finding::ConnectorFinding;
 use crate::parts::fit::Fit;
 use crate::parts::part::{Body, ConnectorBody, Part, Tip};
 use crate::structure::Structure;
@@ -93,7 +95,7 @@ pub struct Hit {
 
 impl Built<'_> {
     /// The nodes it reaches.
-    pub(super) fn nodes(&self) -> Vec<usize> {
+    pub(crate) fn nodes(&self) -> Vec<usize> {
         match &self.role {
             Role::Fins { nodes, .. } => nodes.clone(),
             Role::Plates(plates) => vec![plates.node],

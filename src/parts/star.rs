@@ -68,7 +68,7 @@ impl Around {
 }
 
 /// Angle from each fin to the next, counter-clockwise, radians.
-pub(super) fn sectors(spokes: &[Spoke]) -> Vec<f64> {
+pub(crate) fn sectors(spokes: &[Spoke]) -> Vec<f64> {
     let next = spokes.iter().cycle().skip(1);
     let pairs = spokes.iter().zip(next);
     pairs.map(|(a, b)| (b.bearing - a.bearing).rem_euclid(2.0 * PI)).collect()
@@ -107,7 +107,7 @@ fn rise(structure: &Structure, node: usize, to: usize) -> [f64; 2] {
 
 /// Shortest way across a fin between its axes, at the heights of its corners: axes that lean
 /// toward each other bring their connectors together.
-pub(super) fn shortest(structure: &Structure, [i, j]: [usize; 2]) -> f64 {
+pub(crate) fn shortest(structure: &Structure, [i, j]: [usize; 2]) -> f64 {
     let (a, b) = (&structure.nodes()[i], &structure.nodes()[j]);
     let pairs = [(a.bottom(), b.bottom()), (a.top(), b.top())];
     let across = pairs.map(|(p, q): (Point3, Point3)| {

@@ -1,13 +1,13 @@
 //! How tightly a strip bends at a node: its fold spread over the fins beside it, less the
 //! slit (fabrication notes §4.6).
 
-use crate::parts::joint::Slit;
+use crate::parts::lap::join::Slit;
 use crate::parts::part::StripBody;
 use crate::parts::unfold::FlatAxis;
 
 /// Radius of the bend, mm, from the lengths of the fins beside the node, the width of its
 /// slit and its fold; infinite where nothing folds.
-pub(super) fn radius(lengths: &[f64], slit: f64, fold: f64) -> f64 {
+pub(crate) fn radius(lengths: &[f64], slit: f64, fold: f64) -> f64 {
     let mean = lengths.iter().sum::<f64>() / lengths.len().max(1) as f64;
     (mean - slit).max(0.0) / fold.abs()
 }

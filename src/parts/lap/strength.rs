@@ -1,15 +1,15 @@
 //! Whether a strip holds: material behind and between its slits, and how tightly it bends.
 
 use crate::geometry::{Point2, Vector2};
-use crate::parts::bend;
-use crate::parts::finding::PartFinding;
 use crate::parts::fit::Fit;
-use crate::parts::joint::{Opening, Slit};
+use crate::parts::lap::bend;
+use crate::parts::lap::finding::PartFinding;
+use crate::parts::lap::join::{Opening, Slit};
 use crate::parts::unfold::{FlatAxis, FlatStrip};
 use std::collections::BTreeMap;
 
 /// A strip with the slits cut into it, by place.
-pub(super) struct Slitted<'a> {
+pub(crate) struct Slitted<'a> {
     /// Name for messages.
     pub name: &'a str,
     /// The flat strip.
@@ -21,7 +21,7 @@ pub(super) struct Slitted<'a> {
 }
 
 /// Everything weak about a strip.
-pub(super) fn weaknesses(slitted: &Slitted) -> Vec<PartFinding> {
+pub(crate) fn weaknesses(slitted: &Slitted) -> Vec<PartFinding> {
     let places = slitted.slits.iter();
     let behind = places.filter_map(|(&place, slit)| slitted.behind(place, slit));
     let fins = 0..slitted.strip.axes.len() - 1;
