@@ -40,6 +40,7 @@ pub mod diagnostic;
 pub mod export;
 pub mod gate;
 pub mod geometry;
+pub mod ids;
 pub mod job;
 pub mod joint;
 pub mod lettering;

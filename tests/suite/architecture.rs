@@ -7,6 +7,7 @@ use std::path::{Path, PathBuf};
 const ORDER: &[&str] = &[
     "tolerance",
     "units",
+    "ids",
     "watch",
     "diagnostic",
     "geometry",
