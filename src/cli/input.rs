@@ -3,8 +3,9 @@
 use crate::cli::args::{Depth, Fix, InputArgs};
 use crate::design::examples;
 use crate::diagnostic::{Finding, Located, Place};
+use crate::geometry::{Mesh, Point3};
 use crate::structure::{
-    AxisRule, Draft, ObjOptions, ReadError, boundary_nodes, exchange, read_json, read_obj,
+    AxisRule, Draft, ObjOptions, ReadError, exchange, read_json, read_obj,
 };
 use crate::template::{self, Template, TemplateErrors};
 use crate::tolerance::SAME_HEIGHT;
@@ -260,14 +261,14 @@ pub(super) fn nodes(fix: &Fix, draft: &Draft) -> Vec<usize> {
     let count = draft.positions.len();
     match fix {
         Fix::None => Vec::new(),
-        Fix::Boundary => boundary_nodes(&draft.faces, count)
+        Fix::Boundary => boundary(draft)
             .into_iter()
             .enumerate()
             .filter_map(|(node, boundary)| boundary.then_some(node))
             .collect(),
         Fix::Nodes(nodes) => nodes.clone(),
         Fix::Lowest => {
-            let height = |p: &crate::geometry::Point3| p.z;
+            let height = |p: &Point3| p.z;
             let all = || draft.positions.iter().map(height);
             let low = all().fold(f64::INFINITY, f64::min);
             let high = all().fold(f64::NEG_INFINITY, f64::max);
@@ -275,6 +276,13 @@ pub(super) fn nodes(fix: &Fix, draft: &Draft) -> Vec<usize> {
             (0..count).filter(|&k| draft.positions[k].z <= limit).collect()
         }
     }
+}
+
+/// Whether each node is on the boundary; of a mesh whose faces name nodes that are not there,
+/// which is refused later, none is.
+fn boundary(draft: &Draft) -> Vec<bool> {
+    Mesh::new(draft.positions.len(), &draft.faces)
+        .map_or_else(|_| Vec::new(), |mesh| mesh.boundary_nodes())
 }
 
 /// The template of this name, or from this file.

@@ -1,6 +1,6 @@
 //! Judging a draft and the structure made of it, all faults at once.
 
-use crate::geometry::{Point3, trig};
+use crate::geometry::{DisjointSets, Mesh, Point3, trig};
 use crate::structure::draft::{Draft, area_vector};
 use crate::structure::finding::{FaceFault, StructureFinding};
 use crate::structure::{Node, Structure, surface};
@@ -98,8 +98,8 @@ fn indices(draft: &Draft) -> Vec<StructureFinding> {
 }
 
 /// Faces, edges and fins as a mesh; indices are in range.
-pub(super) fn mesh(draft: &Draft) -> Vec<StructureFinding> {
-    [faces(draft), surface::faults(&draft.faces), fins(draft), pieces(draft)].concat()
+pub(super) fn mesh(draft: &Draft, mesh: &Mesh) -> Vec<StructureFinding> {
+    [faces(draft), surface::faults(mesh), fins(draft), pieces(draft)].concat()
 }
 
 fn faces(draft: &Draft) -> Vec<StructureFinding> {
@@ -143,24 +143,15 @@ fn fins(draft: &Draft) -> Vec<StructureFinding> {
 
 /// Connected pieces and loose nodes.
 fn pieces(draft: &Draft) -> Vec<StructureFinding> {
-    let mut root: Vec<usize> = (0..draft.positions.len()).collect();
-    fn find(root: &mut [usize], mut k: usize) -> usize {
-        while root[k] != k {
-            root[k] = root[root[k]];
-            k = root[k];
-        }
-        k
-    }
-    let mut used = vec![false; root.len()];
+    let mut pieces = DisjointSets::new(draft.positions.len());
+    let mut used = vec![false; draft.positions.len()];
     for [i, j] in draft.fin_pairs() {
         used[i] = true;
         used[j] = true;
-        let (a, b) = (find(&mut root, i), find(&mut root, j));
-        root[a.max(b)] = a.min(b);
+        pieces.join(i, j);
     }
-    let starts: Vec<usize> =
-        (0..root.len()).filter(|&k| used[k] && root[k] == k).collect();
-    let loose: Vec<usize> = (0..root.len()).filter(|&k| !used[k]).collect();
+    let (starts, loose): (Vec<usize>, Vec<usize>) =
+        pieces.firsts().into_iter().partition(|&node| used[node]);
     let mut findings = Vec::new();
     if let [_, second, ..] = starts[..] {
         let pieces = starts.len();

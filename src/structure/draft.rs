@@ -1,6 +1,7 @@
 //! A structure as somebody wrote it down: nothing has been checked yet.
 
 use crate::geometry::{Point3, Vector3};
+use crate::ids::NodeId;
 
 /// What the readers make and [`Structure::new`](super::Structure::new) judges.
 /// Lengths are already millimetres at model scale.
@@ -63,15 +64,15 @@ impl Draft {
 }
 
 /// The directed edges around a face.
-pub fn face_edges(face: &[usize]) -> impl Iterator<Item = (usize, usize)> + '_ {
+fn face_edges<N: Copy>(face: &[N]) -> impl Iterator<Item = (N, N)> + '_ {
     face.iter().zip(face.iter().cycle().skip(1)).map(|(&i, &j)| (i, j))
 }
 
 /// The vector area of a polygon (Newell): its normal, as long as the area.
-pub fn area_vector(positions: &[Point3], face: &[usize]) -> Vector3 {
+pub fn area_vector<N: Copy + Into<NodeId>>(positions: &[Point3], face: &[N]) -> Vector3 {
     // From a corner of the face: far from the origin the products would drown the area.
     let Some(&first) = face.first() else { return Vector3::zeros() };
-    let arm = |node: usize| positions[node] - positions[first];
+    let arm = |node: N| positions[node.into()] - positions[first.into()];
     let twice: Vector3 = face_edges(face).map(|(i, j)| arm(i).cross(&arm(j))).sum();
     twice / 2.0
 }

@@ -16,23 +16,25 @@ mod meeting;
 mod node;
 mod obj;
 mod read;
+mod sound;
 mod strips;
 mod surface;
 
 pub use check::planarity;
 pub use crossing::FinTree;
-pub use draft::{Draft, area_vector, face_edges};
+pub use draft::{Draft, area_vector};
 pub use finding::{FaceFault, StructureFinding};
 pub use json::{read_json, write_json};
 pub use node::{Arm, Node};
 pub use obj::{AxisRule, ObjOptions, read_obj, write_obj};
 pub use read::{ReadError, ReadNote};
+pub use sound::SoundDraft;
 pub use strips::Strip;
 
 use crate::diagnostic::{Finding, passes, short};
 use crate::geometry::{Point3, Vector3};
+use crate::structure::sound::collect;
 use crate::tolerance::Tolerance;
-use std::collections::BTreeMap;
 use thiserror::Error;
 
 /// A torsion-free support structure, mm at model scale.
@@ -70,11 +72,19 @@ impl Structure {
         draft: Draft,
         tolerance: &Tolerance,
     ) -> Result<(Self, Vec<Finding>), Refused> {
-        let mut findings = draft_findings(&draft);
-        if !passes(&findings) {
-            return Err(Refused { findings });
-        }
-        let (structure, traced) = Self::build(draft, tolerance);
+        Self::of(SoundDraft::new(draft)?, tolerance)
+    }
+
+    /// The structure of a draft that has been judged.
+    ///
+    /// # Errors
+    /// As [`Structure::new`]: listed strips may not fit the fins.
+    pub fn of(
+        mut sound: SoundDraft,
+        tolerance: &Tolerance,
+    ) -> Result<(Self, Vec<Finding>), Refused> {
+        let mut findings = std::mem::take(&mut sound.findings);
+        let (structure, traced) = Self::build(sound, tolerance);
         findings.extend(collect(traced));
         if !passes(&findings) {
             return Err(Refused { findings });
@@ -84,9 +94,10 @@ impl Structure {
         Ok((structure, findings))
     }
 
-    fn build(draft: Draft, tolerance: &Tolerance) -> (Self, Vec<StructureFinding>) {
+    fn build(sound: SoundDraft, tolerance: &Tolerance) -> (Self, Vec<StructureFinding>) {
+        let SoundDraft { draft, mesh, .. } = sound;
         let fins = draft.fin_pairs();
-        let boundary = boundary_nodes(&draft.faces, draft.positions.len());
+        let boundary = mesh.boundary_nodes();
         let nodes = node::join(&draft, &fins);
         let fixed = match draft.fixed {
             Some(fixed) => fixed,
@@ -173,33 +184,4 @@ impl Structure {
     pub fn direction(&self, at: usize, to: usize) -> Vector3 {
         node::across(&self.nodes[at], self.nodes[to].position)
     }
-}
-
-/// Everything that leaves no structure to speak of, as [`Structure::new`] would say it.
-pub fn draft_findings(draft: &Draft) -> Vec<Finding> {
-    let mut findings = collect(check::numbers(draft));
-    if passes(&findings) {
-        findings.extend(collect(check::mesh(draft)));
-    }
-    findings
-}
-
-fn collect(facts: Vec<StructureFinding>) -> Vec<Finding> {
-    facts.into_iter().map(Finding::from).collect()
-}
-
-/// Whether each node is an end of an edge with one face only; corners out of range are left
-/// for the check of the draft.
-pub fn boundary_nodes(faces: &[Vec<usize>], nodes: usize) -> Vec<bool> {
-    let mut uses: BTreeMap<[usize; 2], usize> = BTreeMap::new();
-    for (i, j) in faces.iter().flat_map(|face| face_edges(face)) {
-        *uses.entry([i.min(j), i.max(j)]).or_default() += 1;
-    }
-    let mut boundary = vec![false; nodes];
-    for (&[i, j], _) in uses.iter().filter(|&(_, &count)| count == 1) {
-        for node in [i, j].into_iter().filter(|&node| node < nodes) {
-            boundary[node] = true;
-        }
-    }
-    boundary
 }

@@ -290,10 +290,9 @@ pub(super) fn coupled(fins: &[Fin], evens: &[Even]) -> Vec<[usize; 2]> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::design::planarise::mesh::Mesh;
     use crate::design::planarise::options::Options;
     use crate::design::planarise::setup;
-    use crate::geometry::trig;
+    use crate::geometry::{Mesh, trig};
     use crate::structure::{AxisRule, Draft};
 
     /// Five by five nodes, every row of the energy at work.

@@ -3,11 +3,11 @@
 use crate::design::planarise::energy::State;
 use crate::design::planarise::figures::{Figures, Spread};
 use crate::design::planarise::finding::{DesignFinding, Reason};
-use crate::design::planarise::mesh::Mesh;
 use crate::design::planarise::options::Options;
 use crate::design::planarise::setup::Task;
 use crate::design::planarise::surface::Surface;
-use crate::geometry::{Point3, Vector3, trig};
+use crate::geometry::{Mesh, Point3, Vector3, trig};
+use crate::ids::{FaceId, NodeId};
 use crate::structure::area_vector;
 
 /// A result beside what was given.
@@ -96,9 +96,9 @@ impl Judged<'_> {
     fn reason(&self, fin: [usize; 2], options: &Options) -> Reason {
         let place = self.task.place();
         let energy = &self.task.energy;
-        let on_rim = |edge: &[usize; 2]| {
-            let mut edges = self.mesh.edges.iter().zip(&self.mesh.on_rim);
-            edges.any(|(other, &on_rim)| on_rim && other == edge)
+        let on_rim = |[i, j]: [NodeId; 2]| {
+            let side = self.mesh.half_edge(i, j).or(self.mesh.half_edge(j, i));
+            side.is_some_and(|side| self.mesh.is_boundary_edge(self.mesh.edge(side)))
         };
         let held = |&node: &usize| energy.free[place[node]] != [true; 2];
         let tilts: Vec<f64> = self.tilts().collect();
@@ -107,8 +107,9 @@ impl Judged<'_> {
             let moved = (self.result.positions[node] - self.given.positions[node]).norm();
             moved >= energy.reach[place[node]] * self.task.unit
         };
+        let corners = |face: usize| self.mesh.corners(FaceId::new(face));
         let beside =
-            |face: &usize| fin.iter().all(|k| self.mesh.faces[*face].contains(k));
+            |face: &usize| fin.iter().all(|&k| corners(*face).contains(&NodeId::new(k)));
         let find = |claim: &dyn Fn(&usize) -> bool| fin.into_iter().find(|k| claim(k));
         if let Some(face) = self.reversed().find(beside) {
             Reason::Reversed(face)
@@ -116,7 +117,7 @@ impl Judged<'_> {
             Reason::Tangent(node)
         } else if let Some(node) = find(&held) {
             Reason::Held(node)
-        } else if on_rim(&fin) {
+        } else if on_rim(fin.map(NodeId::new)) {
             Reason::Boundary
         } else {
             find(&far).map_or(Reason::Crowded, Reason::Limit)
@@ -125,7 +126,7 @@ impl Judged<'_> {
 
     /// Faces that look the other way, or have a corner that does.
     fn reversed(&self) -> impl Iterator<Item = usize> + '_ {
-        let folded = |face: &[usize], positions: &[Point3], normal: Vector3| {
+        let folded = |face: &[NodeId], positions: &[Point3], normal: Vector3| {
             let corner = |k: usize| {
                 let at = positions[face[k]];
                 let before = positions[face[(k + face.len() - 1) % face.len()]];
@@ -134,8 +135,9 @@ impl Judged<'_> {
             };
             (0..face.len()).filter(|&k| corner(k)).count()
         };
-        let faces = self.mesh.faces.iter().enumerate();
-        faces.filter_map(move |(index, face)| {
+        self.mesh.faces().filter_map(move |face| {
+            let index = face.index();
+            let face = self.mesh.corners(face);
             let normal = area_vector(&self.given.positions, face);
             let turned = area_vector(&self.result.positions, face).dot(&normal) <= 0.0;
             let before = folded(face, &self.given.positions, normal);
@@ -146,13 +148,14 @@ impl Judged<'_> {
 
     /// Angle between each axis and the normal of the new surface, on the axis' side.
     fn tilts(&self) -> impl Iterator<Item = f64> + '_ {
-        self.mesh.faces_at.iter().enumerate().map(|(node, faces)| {
-            let areas = faces.iter();
-            let normal: Vector3 = areas
-                .map(|&f| area_vector(&self.result.positions, &self.mesh.faces[f]))
-                .sum();
+        let positions = &self.result.positions;
+        self.mesh.nodes().map(|node| {
+            let faces = self.mesh.faces_at(node);
+            let is_loose = faces.len() == 0;
+            let areas = faces.map(|face| area_vector(positions, self.mesh.corners(face)));
+            let normal: Vector3 = areas.sum();
             let axis = self.result.axes[node];
-            if faces.is_empty() { 0.0 } else { angle(axis, normal * normal.dot(&axis)) }
+            if is_loose { 0.0 } else { angle(axis, normal * normal.dot(&axis)) }
         })
     }
 
@@ -174,13 +177,13 @@ impl Judged<'_> {
         &'s self,
         state: &'s State,
     ) -> impl Iterator<Item = (usize, Point3)> + 's {
-        let middle = |nodes: &[usize]| {
+        let middle = |nodes: &[NodeId]| {
             let sum: Vector3 = nodes.iter().map(|&k| state.positions[k].coords).sum();
-            (nodes[0], Point3::from(sum / nodes.len() as f64))
+            (nodes[0].index(), Point3::from(sum / nodes.len() as f64))
         };
         let nodes = state.positions.iter().copied().enumerate();
-        let edges = self.mesh.edges.iter().map(move |edge| middle(edge));
-        let faces = self.mesh.faces.iter().map(move |face| middle(face));
+        let edges = self.mesh.edges().map(move |edge| middle(&self.mesh.ends(edge)));
+        let faces = self.mesh.faces().map(move |face| middle(self.mesh.corners(face)));
         nodes.chain(edges).chain(faces)
     }
 }

@@ -13,7 +13,6 @@ mod figures;
 mod finding;
 mod judge;
 mod matrix;
-mod mesh;
 mod needed;
 mod options;
 mod picture;
@@ -30,9 +29,10 @@ pub use setup::smoothed_axes;
 
 use crate::design::planarise::descent::{Broken, descend};
 use crate::design::planarise::energy::State;
-use crate::design::planarise::mesh::{Fault, Mesh};
-use crate::diagnostic::{Finding, passes};
-use crate::structure::{Draft, draft_findings};
+use crate::diagnostic::Finding;
+use crate::geometry::Mesh;
+use crate::ids::{FaceId, NodeId};
+use crate::structure::{Draft, Refused, SoundDraft};
 use crate::watch::Watch;
 
 /// A mesh whose fins are as plane as they could be made.
@@ -57,6 +57,18 @@ pub enum Stopped {
     Refused(Vec<Finding>),
 }
 
+impl From<Refused> for Stopped {
+    fn from(refused: Refused) -> Self {
+        Self::Refused(refused.findings)
+    }
+}
+
+impl From<DesignFinding> for Stopped {
+    fn from(fact: DesignFinding) -> Self {
+        Self::Refused(vec![fact.into()])
+    }
+}
+
 /// Makes the fins of a mesh plane.
 ///
 /// A mesh whose fins are plane to [`Options::target`] comes back as it is. The result does
@@ -72,46 +84,60 @@ pub fn planarise(
     options: &Options,
     watch: &mut dyn Watch,
 ) -> Result<Planarised, Stopped> {
-    let refused = |fact: DesignFinding| Stopped::Refused(vec![fact.into()]);
-    let findings = draft_findings(&draft);
-    if !passes(&findings) {
-        return Err(Stopped::Refused(findings));
-    }
-    let mesh =
-        Mesh::new(draft.positions.len(), &draft.faces).map_err(|fault| match fault {
-            Fault::Turned(faces) => refused(DesignFinding::FacesTurned { faces }),
-            // Those have been refused as `structure::not_orientable`.
-            Fault::OneSided(faces) => {
-                refused(DesignFinding::FacesTurned { faces: faces.to_vec() })
-            }
-            Fault::Fans(nodes) => refused(DesignFinding::SeveralFans { nodes }),
-        })?;
+    planarise_sound(SoundDraft::new(draft)?, options, watch)
+}
+
+/// Makes the fins of a mesh plane that has been judged.
+fn planarise_sound(
+    sound: SoundDraft,
+    options: &Options,
+    watch: &mut dyn Watch,
+) -> Result<Planarised, Stopped> {
+    let (draft, mesh) = (sound.draft(), sound.mesh());
+    must_be_a_surface(mesh)?;
     let given = State {
         positions: draft.positions.clone(),
         axes: draft.axes.iter().map(|axis| axis.normalize()).collect(),
     };
-    let fins = setup::fins(&draft, &mesh, options.boundary_fins);
+    let fins = setup::fins(draft, mesh, options.boundary_fins);
     if fins.is_empty() {
-        return Err(refused(DesignFinding::NoInnerFin { edges: mesh.edges.len() }));
+        return Err(DesignFinding::NoInnerFin { edges: mesh.edge_count() }.into());
     }
-    let mut task = setup::task(&draft, &mesh, options, &fins);
+    let mut task = setup::task(draft, mesh, options, &fins);
     let before = Spread::of(task.energy.planarities(&task.energy.start));
     let (mut result, mut history) = (given.clone(), Vec::new());
     if before.worst > options.target {
         let found = descend(&mut task.energy, options.target, options.steps, watch);
         let found = found.map_err(|broken| match broken {
             Broken::Interrupted => Stopped::Interrupted,
-            Broken::TooLarge => refused(DesignFinding::TooLarge { fins: fins.len() }),
+            Broken::TooLarge => DesignFinding::TooLarge { fins: fins.len() }.into(),
         })?;
         result = task.placed(&given, &found.state);
         history = found.history;
     }
-    let judged =
-        judge::Judged { mesh: &mesh, given: &given, result: &result, task: &task };
+    let judged = judge::Judged { mesh, given: &given, result: &result, task: &task };
     let figures = judged.figures(before);
     let findings =
         judged.findings(&fins, options).into_iter().map(Finding::from).collect();
+    let draft = Draft::from(sound);
     let axes = if history.is_empty() { draft.axes } else { result.axes };
     let draft = Draft { positions: result.positions, axes, fins: Some(fins), ..draft };
     Ok(Planarised { draft, figures, history, findings })
+}
+
+/// One side, and one fan around every node.
+fn must_be_a_surface(mesh: &Mesh) -> Result<(), DesignFinding> {
+    // One-sided meshes have been refused as `structure::not_orientable`.
+    let turned = mesh.turned_faces().unwrap_or_else(|one_sided| one_sided.faces.into());
+    if !turned.is_empty() {
+        let faces = turned.into_iter().map(FaceId::index).collect();
+        return Err(DesignFinding::FacesTurned { faces });
+    }
+    let split: Vec<usize> =
+        mesh.non_manifold_nodes().map(|(node, _)| NodeId::index(node)).collect();
+    if split.is_empty() {
+        Ok(())
+    } else {
+        Err(DesignFinding::SeveralFans { nodes: split })
+    }
 }

@@ -2,9 +2,9 @@
 
 use crate::design::planarise::finding::DesignFinding;
 use crate::design::planarise::options::Options;
-use crate::design::planarise::{Stopped, planarise};
-use crate::diagnostic::{Finding, passes};
-use crate::structure::{Draft, draft_findings, planarity};
+use crate::design::planarise::{Stopped, planarise_sound};
+use crate::diagnostic::Finding;
+use crate::structure::{Draft, SoundDraft, planarity};
 use crate::watch::Watch;
 
 /// The draft as it is if its fins are plane to [`Options::target`] or if it is no structure
@@ -17,11 +17,14 @@ pub fn planarised_if_needed(
     options: &Options,
     watch: &mut dyn Watch,
 ) -> Result<(Draft, Vec<Finding>), Stopped> {
-    if !passes(&draft_findings(&draft)) || worst(&draft) <= options.target {
+    let Ok(sound) = SoundDraft::new(draft.clone()) else {
+        return Ok((draft, Vec::new()));
+    };
+    if worst(&draft) <= options.target {
         return Ok((draft, Vec::new()));
     }
     let all = draft.fin_pairs().len();
-    let planarised = match planarise(draft.clone(), options, watch) {
+    let planarised = match planarise_sound(sound, options, watch) {
         Ok(planarised) => planarised,
         Err(Stopped::Refused(findings)) => return Ok((draft, findings)),
         Err(Stopped::Interrupted) => return Err(Stopped::Interrupted),

@@ -25,7 +25,7 @@ const HIGH_POWER: f64 = -2.0;
 pub struct PictureError;
 
 /// Draws the fins of two drafts of the same mesh side by side, as PNG. Both drafts must
-/// have passed [`draft_findings`](crate::structure::draft_findings).
+/// be sound ([`SoundDraft`](crate::structure::SoundDraft)).
 ///
 /// # Errors
 /// [`PictureError`] if there is nothing to draw.

@@ -2,10 +2,10 @@
 
 use crate::design::planarise::energy::{Energy, Even, Fin, State, coupled};
 use crate::design::planarise::matrix::elimination_order;
-use crate::design::planarise::mesh::Mesh;
 use crate::design::planarise::options::Options;
-use crate::design::planarise::surface::{Surface, unit};
-use crate::geometry::{Point3, Vector3, trig};
+use crate::design::planarise::surface::{Surface, rim_beside, unit};
+use crate::geometry::{Mesh, Point3, Vector3, trig};
+use crate::ids::{EdgeId, NodeId};
 use crate::structure::Draft;
 use crate::tolerance::CORNER_TURN;
 
@@ -56,11 +56,14 @@ pub(super) fn fins(draft: &Draft, mesh: &Mesh, boundary_fins: bool) -> Vec<[usiz
     match draft.fins {
         Some(_) => draft.fin_pairs(),
         None => {
-            let wanted = mesh.edges.iter().zip(&mesh.on_rim);
-            let wanted = wanted.filter(|&(_, &on_rim)| boundary_fins || !on_rim);
-            wanted.map(|(&edge, _)| edge).collect()
+            let wanted = |&edge: &_| boundary_fins || !mesh.is_boundary_edge(edge);
+            mesh.edges().filter(wanted).map(|edge| ends(mesh, edge)).collect()
         }
     }
+}
+
+fn ends(mesh: &Mesh, edge: EdgeId) -> [usize; 2] {
+    mesh.ends(edge).map(NodeId::index)
 }
 
 /// Axes smoothed over their neighbours: each round brings every axis half way to the mean
@@ -146,7 +149,8 @@ fn upright(
 /// How far each node may move: a share of its shortest edge.
 fn far(positions: &[Point3], fins: &[Fin], mesh: &Mesh, options: &Options) -> Vec<f64> {
     let mut shortest = vec![1.0_f64; positions.len()];
-    for &[i, j] in fins.iter().map(|fin| &fin.ends).chain(&mesh.edges) {
+    let edges = mesh.edges().map(|edge| ends(mesh, edge));
+    for [i, j] in fins.iter().map(|fin| fin.ends).chain(edges) {
         let length = (positions[i] - positions[j]).norm();
         shortest[i] = shortest[i].min(length);
         shortest[j] = shortest[j].min(length);
@@ -156,19 +160,21 @@ fn far(positions: &[Point3], fins: &[Fin], mesh: &Mesh, options: &Options) -> Ve
 
 /// Boundary nodes where the boundary turns: they stay.
 fn corners(mesh: &Mesh, positions: &[Point3]) -> Vec<bool> {
-    let turns = |node: usize| {
-        let Some([a, b]) = mesh.rim(node) else { return false };
+    let turns = |node: NodeId| {
+        let Some([a, b]) = rim_beside(mesh, node) else { return false };
         let (to, from) = (positions[a] - positions[node], positions[node] - positions[b]);
         trig::atan2(to.cross(&from).norm(), to.dot(&from)) > CORNER_TURN
     };
-    (0..positions.len()).map(turns).collect()
+    mesh.nodes().map(turns).collect()
 }
 
 /// Every node stays, and neighbours change alike: along every edge, whether it carries a
 /// fin or not.
 fn evens(mesh: &Mesh) -> Vec<Even> {
-    let alike =
-        |&[i, j]: &[usize; 2]| Even { stencil: vec![(i, 1.0), (j, -1.0)], stays: false };
+    let alike = |edge| {
+        let [i, j] = ends(mesh, edge);
+        Even { stencil: vec![(i, 1.0), (j, -1.0)], stays: false }
+    };
     let stays = |node| Even { stencil: vec![(node, 1.0)], stays: true };
-    mesh.edges.iter().map(alike).chain((0..mesh.ring.len()).map(stays)).collect()
+    mesh.edges().map(alike).chain((0..mesh.node_count()).map(stays)).collect()
 }

@@ -5,8 +5,8 @@
 //! moves: on faces two rings around it, on the boundary three edges to either side, on
 //! every loop alike.
 
-use crate::design::planarise::mesh::Mesh;
-use crate::geometry::{Point3, Vector3};
+use crate::geometry::{Mesh, Point3, Vector3};
+use crate::ids::{FaceId, NodeId};
 use crate::structure::area_vector;
 
 /// Boundary edges to either side of a node among which its foot is sought.
@@ -16,7 +16,7 @@ const REACH: usize = 3;
 pub(super) struct Surface {
     patches: Vec<Patch>,
     /// Faces within two rings of each node.
-    near: Vec<Vec<usize>>,
+    near: Vec<Vec<FaceId>>,
     /// Boundary edges near each boundary node.
     rim: Vec<Vec<Segment>>,
     normals: Vec<Vector3>,
@@ -56,16 +56,14 @@ impl Surface {
     /// The surface of a mesh with nodes at these positions. `corners` are nodes where its
     /// boundary turns.
     pub(super) fn new(mesh: &Mesh, positions: &[Point3], corners: &[bool]) -> Self {
-        let areas: Vec<Vector3> =
-            mesh.faces.iter().map(|face| area_vector(positions, face)).collect();
-        let normals: Vec<Vector3> = mesh
-            .faces_at
-            .iter()
-            .map(|faces| unit(faces.iter().map(|&face| areas[face]).sum()))
-            .collect();
-        let patches = mesh.faces.iter().zip(&areas).map(|(face, area)| {
-            let corner = |&k: &usize| Corner { point: positions[k], normal: normals[k] };
-            Patch::new(&face.iter().map(corner).collect::<Vec<_>>(), unit(*area))
+        let area = |face| area_vector(positions, mesh.corners(face));
+        let areas: Vec<Vector3> = mesh.faces().map(area).collect();
+        let normal = |node| unit(mesh.faces_at(node).map(|face| areas[face]).sum());
+        let normals: Vec<Vector3> = mesh.nodes().map(normal).collect();
+        let patches = mesh.faces().map(|face| {
+            let corner = |&k: &NodeId| Corner { point: positions[k], normal: normals[k] };
+            let corners: Vec<Corner> = mesh.corners(face).iter().map(corner).collect();
+            Patch::new(&corners, unit(areas[face]))
         });
         let rim = rim(mesh, positions, corners);
         Self { patches: patches.collect(), near: near(mesh), rim, normals }
@@ -154,14 +152,13 @@ pub(super) fn unit(v: Vector3) -> Vector3 {
     if length > 0.0 { v / length } else { v }
 }
 
-fn near(mesh: &Mesh) -> Vec<Vec<usize>> {
-    let rings = mesh.ring.iter().enumerate();
-    rings
-        .map(|(node, ring)| {
+fn near(mesh: &Mesh) -> Vec<Vec<FaceId>> {
+    mesh.nodes()
+        .map(|node| {
             // The node's own faces first: the foot is nearly always there.
-            let mut faces = mesh.faces_at[node].clone();
+            let mut faces: Vec<FaceId> = mesh.faces_at(node).collect();
             let own = faces.len();
-            faces.extend(ring.iter().flat_map(|&k| &mesh.faces_at[k]).copied());
+            faces.extend(mesh.ring(node).into_iter().flat_map(|k| mesh.faces_at(k)));
             faces[own..].sort_unstable();
             let mut seen = Vec::with_capacity(faces.len());
             for face in faces {
@@ -176,32 +173,39 @@ fn near(mesh: &Mesh) -> Vec<Vec<usize>> {
         .collect()
 }
 
+/// The neighbours of a boundary node on the boundary: the next, faces to the left, and the
+/// one before.
+pub(super) fn rim_beside(mesh: &Mesh, node: NodeId) -> Option<[NodeId; 2]> {
+    let [out, back] = mesh.boundary_at(node)?;
+    Some([mesh.tip(out), mesh.tail(back)])
+}
+
 fn rim(mesh: &Mesh, positions: &[Point3], corners: &[bool]) -> Vec<Vec<Segment>> {
-    let forward = |node: usize| {
-        mesh.rim(node).map(|[next, _]| unit(positions[next] - positions[node]))
+    let forward = |node: NodeId| {
+        rim_beside(mesh, node).map(|[next, _]| unit(positions[next] - positions[node]))
     };
-    let backward = |node: usize| {
-        mesh.rim(node).map(|[_, last]| unit(positions[node] - positions[last]))
+    let backward = |node: NodeId| {
+        rim_beside(mesh, node).map(|[_, last]| unit(positions[node] - positions[last]))
     };
     // At a corner each side keeps its own direction.
-    let tangent = |node: usize, own: Vector3| match (forward(node), backward(node)) {
+    let tangent = |node: NodeId, own: Vector3| match (forward(node), backward(node)) {
         (Some(a), Some(b)) if !corners[node] => unit(a + b),
         _ => own,
     };
-    let segment = |from: usize, to: usize| {
+    let segment = |from: NodeId, to: NodeId| {
         let own = unit(positions[to] - positions[from]);
         Segment {
             ends: [positions[from], positions[to]],
             tangents: [tangent(from, own), tangent(to, own)],
         }
     };
-    (0..positions.len())
+    mesh.nodes()
         .map(|node| {
             let mut segments = Vec::new();
             for side in [0, 1] {
                 let mut at = node;
                 for _ in 0..REACH {
-                    let Some(rim) = mesh.rim(at) else { break };
+                    let Some(rim) = rim_beside(mesh, at) else { break };
                     let to = rim[side];
                     segments.push(if side == 0 {
                         segment(at, to)
