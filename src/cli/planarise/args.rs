@@ -2,10 +2,10 @@
 
 use crate::cli::args::{Depth, Fix, axis_rule, depth, fix, numbers};
 use crate::cli::input::{self, Input};
-use crate::design::planarise::{Options, Weights};
+use crate::design::planarise::{Options, WISHES, Weights, Wish};
 use crate::structure::AxisRule;
 use crate::units::Unit;
-use clap::{Args, ValueEnum};
+use clap::{Arg, ArgMatches, Args, Command, FromArgMatches, ValueEnum};
 use std::path::PathBuf;
 
 pub(in crate::cli) const PLANARISE_HELP: &str = "\
@@ -118,38 +118,45 @@ pub struct PlanariseArgs {
     pub json: bool,
 }
 
-/// Weights.
-#[derive(Debug, Args)]
-pub struct WeightArgs {
-    /// Planarity: raised on its own until the target is met; lower, and nodes and axes are
-    /// led more gently
-    #[arg(long, default_value = "10", value_parser = weight, value_name = "W")]
-    pub planarity: f64,
+/// An option for each wish.
+#[derive(Debug, Clone)]
+pub struct WeightArgs(Weights);
 
-    /// Closeness: higher, and nodes keep to the given surface, at the price of axes that
-    /// turn further
-    #[arg(long, default_value = "0.5", value_parser = weight, value_name = "W")]
-    pub closeness: f64,
+impl Args for WeightArgs {
+    fn augment_args(command: Command) -> Command {
+        command.args(WISHES.iter().map(|wish| {
+            // clap keeps texts that live as long as the program.
+            let default: &'static str = wish.weight.to_string().leak();
+            Arg::new(wish.name)
+                .long(wish.name)
+                .value_name("W")
+                .value_parser(weight)
+                .default_value(default)
+                .help(wish.sentence)
+        }))
+    }
 
-    /// Rim: higher, and boundary nodes keep to the given boundary
-    #[arg(long, default_value = "1", value_parser = weight, value_name = "W")]
-    pub rim: f64,
+    fn augment_args_for_update(command: Command) -> Command {
+        Self::augment_args(command)
+    }
+}
 
-    /// Fairness: higher, and changes spread evenly along strips
-    #[arg(long, default_value = "0.05", value_parser = weight, value_name = "W")]
-    pub fairness: f64,
+impl FromArgMatches for WeightArgs {
+    fn from_arg_matches(matches: &ArgMatches) -> Result<Self, clap::Error> {
+        let chosen = |wish: &Wish| matches.get_one(wish.name).copied();
+        let weighed = |weights: Weights, wish| match chosen(wish) {
+            Some(weight) => weights.with(wish, weight),
+            None => weights,
+        };
+        Ok(Self(WISHES.iter().fold(Weights::default(), weighed)))
+    }
 
-    /// Stay: higher, and nodes slide less within the surface
-    #[arg(long, default_value = "0.002", value_parser = weight, value_name = "W")]
-    pub stay: f64,
-
-    /// Stay of axes: higher, and axes turn less, nodes move more
-    #[arg(long, default_value = "0.05", value_parser = weight, value_name = "W")]
-    pub stay_axes: f64,
-
-    /// Walls: how hard `--move-limit` and `--tilt-limit` are
-    #[arg(long, default_value = "3", value_parser = weight, value_name = "W")]
-    pub walls: f64,
+    fn update_from_arg_matches(
+        &mut self,
+        matches: &ArgMatches,
+    ) -> Result<(), clap::Error> {
+        Self::from_arg_matches(matches).map(|weights| *self = weights)
+    }
 }
 
 fn weight(text: &str) -> Result<f64, String> {
@@ -171,20 +178,11 @@ pub(super) fn options(args: &PlanariseArgs, input: &Input) -> Options {
     let held = |fix: &Option<Fix>| {
         fix.as_ref().map_or_else(Vec::new, |fix| input::nodes(fix, &input.draft))
     };
-    let weights = &args.weights;
     Options {
         boundary_fins: args.boundary_fins,
         fixed_nodes: held(&args.hold),
         fixed_axes: held(&args.hold_axes),
-        weights: Weights {
-            planarity: weights.planarity,
-            closeness: weights.closeness,
-            rim: weights.rim,
-            fairness: weights.fairness,
-            stay: weights.stay,
-            stay_axes: weights.stay_axes,
-            walls: weights.walls,
-        },
+        weights: args.weights.0.clone(),
         target: args.target / 100.0,
         tilt_limit: args.tilt_limit.to_radians(),
         move_limit: args.move_limit,

@@ -10,7 +10,6 @@
 
 use crate::design::planarise::energy::{Energy, Feet, State};
 use crate::design::planarise::matrix::{Factor, NormalMatrix, SIZE};
-use crate::design::planarise::options::Weights;
 use crate::geometry::Vector3;
 use crate::tolerance::{LEAST_DAMPING, PLANAR};
 use crate::watch::Watch;
@@ -94,8 +93,7 @@ pub(super) fn descend(
 ) -> Result<Found, Broken> {
     let (constant, matrix) = (energy.constant(), energy.constant());
     let factor = Factor::new(&matrix).ok_or(Broken::TooLarge)?;
-    let wanted = energy.weights;
-    let mut state = energy.start.clone();
+    let mut state = energy.given.start.clone();
     let mut search = Search {
         energy,
         constant,
@@ -119,10 +117,9 @@ pub(super) fn descend(
         if end.worst <= target {
             break;
         }
-        search.energy.weights.planarity *= RAISE;
+        search.energy.planarity.weight *= RAISE;
     }
     let state = search.polished(best.1)?;
-    search.energy.weights = wanted;
     Ok(Found { state, history: search.history })
 }
 
@@ -143,7 +140,7 @@ impl Search<'_> {
             let gain = place.energy - next.energy;
             let share = gain / place.energy;
             place = next;
-            let little = gain < WORTH * self.energy.fins.len() as f64;
+            let little = gain < WORTH * self.energy.given.fins.len() as f64;
             if share < SETTLED || (little && place.worst <= self.target) {
                 break;
             }
@@ -153,8 +150,7 @@ impl Search<'_> {
 
     /// Planarity alone, by the shortest way; ends with the best that was met.
     fn polished(&mut self, state: State) -> Result<State, Broken> {
-        let planarity = self.energy.weights.planarity;
-        self.energy.weights = Weights { planarity, ..Weights::none() };
+        self.energy.silence_wishes();
         self.constant = self.energy.constant();
         (self.polish, self.damping) = (true, FIRST_DAMPING);
         let mut place = self.place(unit_axes(state));
@@ -196,7 +192,7 @@ impl Search<'_> {
             let reached = next.as_ref().unwrap_or(from);
             self.history.push(Step {
                 polish: self.polish,
-                weight: self.energy.weights.planarity,
+                weight: self.energy.planarity.weight,
                 energy: reached.energy,
                 worst: reached.worst,
                 damping: self.damping,

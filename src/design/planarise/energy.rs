@@ -1,13 +1,13 @@
-//! What is minimised: a sum of squared residuals of nodes and axes
-//! (`notes`: planarity, closeness, fairness, staying, unit axes, limits).
+//! What is minimised: a sum of squared residuals of nodes and axes, the rows of its
+//! [terms](crate::design::planarise::terms).
 //!
 //! Lengths are in units of the median fin length, around the mesh's own middle, so that
 //! moving and scaling the input changes nothing. Every row knows its derivative; feet on
 //! the given surface are frozen while a system is solved and sought again after each step.
 
 use crate::design::planarise::matrix::{NormalMatrix, SIZE};
-use crate::design::planarise::options::Weights;
 use crate::design::planarise::surface::{Foot, Surface, unit};
+use crate::design::planarise::terms::{Planarity, Stencil, Term};
 use crate::geometry::{Point3, Vector3};
 use crate::structure::planarity;
 
@@ -29,48 +29,52 @@ pub(super) struct Fin {
     pub reach: [[f64; 2]; 2],
 }
 
-/// Nodes whose changes belong together: their weighted sum is to vanish.
-pub(super) struct Even {
-    /// Nodes with their shares in the sum.
-    pub stencil: Vec<(usize, f64)>,
-    /// Whether this is a node that stays, and not a line that keeps its sweep.
-    pub stays: bool,
-}
-
-/// Where the feet of a node are.
+/// Where a node comes down.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Feet {
-    surface: Option<Foot>,
-    /// A point of the boundary, and the direction inside the surface away from it.
-    rim: Option<(Point3, Vector3)>,
+    /// On the given surface.
+    pub surface: Option<Foot>,
+    /// On the boundary, and the direction inside the surface away from it.
+    pub boundary: Option<(Point3, Vector3)>,
+}
+
+/// What is given, with nodes in the order of elimination.
+pub(super) struct Given {
+    pub start: State,
+    pub fins: Vec<Fin>,
+    /// Edges of the mesh.
+    pub edges: Vec<[usize; 2]>,
+    pub surface: Surface,
+    /// How far each node may move.
+    pub reach: Vec<f64>,
+    /// Whether each node's position and axis are free.
+    pub free: Vec<[bool; 2]>,
+    /// The place of each node of the mesh.
+    pub place: Vec<usize>,
+}
+
+/// Where nodes and axes are now, for terms to look at.
+pub(super) struct At<'a> {
+    pub given: &'a Given,
+    pub now: &'a State,
+    pub feet: &'a [Feet],
 }
 
 /// The sum of squares.
 pub(super) struct Energy {
-    pub start: State,
-    pub fins: Vec<Fin>,
-    pub evens: Vec<Even>,
-    pub surface: Surface,
-    pub weights: Weights,
-    /// How far each node may move.
-    pub reach: Vec<f64>,
-    /// Normal of the surface at each node, on the side of its axis, and the least cosine
-    /// between the two.
-    pub upright: Vec<(Vector3, f64)>,
-    /// Whether each node's position and axis are free.
-    pub free: Vec<[bool; 2]>,
+    pub given: Given,
+    pub planarity: Planarity,
+    /// What is wished for besides.
+    pub wishes: Vec<Box<dyn Term>>,
 }
 
-impl Energy {
+impl Given {
     /// The same with node `order[k]` as the `k`-th.
     pub(super) fn renumbered(mut self, order: &[usize]) -> Self {
-        let mut place = vec![0; order.len()];
-        order.iter().enumerate().for_each(|(k, &node)| place[node] = k);
-        for node in self.fins.iter_mut().flat_map(|fin| &mut fin.ends) {
-            *node = place[*node];
-        }
-        for (node, _) in self.evens.iter_mut().flat_map(|even| &mut even.stencil) {
-            *node = place[*node];
+        order.iter().enumerate().for_each(|(k, &node)| self.place[node] = k);
+        let fins = self.fins.iter_mut().map(|fin| &mut fin.ends);
+        for node in fins.chain(&mut self.edges).flatten() {
+            *node = self.place[*node];
         }
         Self {
             start: State {
@@ -79,60 +83,82 @@ impl Energy {
             },
             surface: self.surface.renumbered(order),
             reach: order.iter().map(|&node| self.reach[node]).collect(),
-            upright: order.iter().map(|&node| self.upright[node]).collect(),
             free: order.iter().map(|&node| self.free[node]).collect(),
             ..self
         }
     }
 
+    /// Pairs of nodes that a row may couple.
+    pub(super) fn coupled(&self) -> Vec<[usize; 2]> {
+        self.fins.iter().map(|fin| fin.ends).chain(self.edges.iter().copied()).collect()
+    }
+}
+
+impl Energy {
+    /// Planarity counts and nothing else, but that axes have length one.
+    pub(super) fn silence_wishes(&mut self) {
+        self.wishes.iter_mut().for_each(|wish| wish.silence());
+    }
+
+    fn terms(&self) -> impl Iterator<Item = &dyn Term> {
+        let planarity: &dyn Term = &self.planarity;
+        std::iter::once(planarity).chain(self.wishes.iter().map(AsRef::as_ref))
+    }
+
+    fn stencils(&self) -> impl Iterator<Item = &Stencil> {
+        self.terms().flat_map(|term| term.stencils())
+    }
+
     /// Feet of all nodes.
     pub(super) fn feet(&self, state: &State) -> Vec<Feet> {
-        let foot = |(node, &point): (usize, &Point3)| {
-            let sought = self.weights.closeness > 0.0 || self.weights.rim > 0.0;
-            if !sought || !self.free[node][0] {
-                return Feet { surface: None, rim: None };
+        let sought = self.terms().any(Term::needs_feet);
+        let surface = &self.given.surface;
+        let feet = |(node, &point): (usize, &Point3)| {
+            if !sought || !self.given.free[node][0] {
+                return Feet { surface: None, boundary: None };
             }
-            let surface = self.surface.foot(node, point);
-            let rim = surface.and_then(|surface| {
-                let (point, tangent) = self.surface.rim_foot(node, point)?;
-                Some((point, unit(tangent.cross(&surface.normal))))
+            let foot = surface.foot(node, point);
+            let boundary = foot.and_then(|foot| {
+                let (point, tangent) = surface.boundary_foot(node, point)?;
+                Some((point, unit(tangent.cross(&foot.normal))))
             });
-            Feet { surface, rim }
+            Feet { surface: foot, boundary }
         };
-        state.positions.iter().enumerate().map(foot).collect()
+        state.positions.iter().enumerate().map(feet).collect()
     }
 
     /// The sum of squares.
     pub(super) fn value(&self, state: &State, feet: &[Feet]) -> f64 {
+        let at = At { given: &self.given, now: state, feet };
         let mut sum = 0.0;
-        for fin in &self.fins {
-            let (value, _) = self.fin_row(fin, state);
-            sum += value * value;
+        for fin in &self.given.fins {
+            let row = &mut |value: f64, _| sum += value * value;
+            self.terms().for_each(|term| term.on_fin(fin, &at, row));
         }
-        for (node, feet) in feet.iter().enumerate() {
-            self.node_rows(node, state, feet, &mut |value, _| sum += value * value);
+        for node in 0..feet.len() {
+            let row = &mut |value: f64, _| sum += value * value;
+            self.terms().for_each(|term| term.on_node(node, &at, row));
         }
-        let even = |even| self.even_rows(even, state).iter().map(|x| x * x).sum::<f64>();
-        sum + self.evens.iter().map(even).sum::<f64>()
+        let rows = self.stencils().map(|stencil| stencil.rows(&at));
+        sum + rows.map(|rows| rows.iter().map(|x| x * x).sum::<f64>()).sum::<f64>()
     }
 
-    /// The matrix of the rows that never change: fairness and staying.
+    /// The matrix of the rows that never change, those of stencils.
     pub(super) fn constant(&self) -> NormalMatrix {
-        let mut matrix =
-            NormalMatrix::new(self.free.len(), &coupled(&self.fins, &self.evens));
-        for even in &self.evens {
-            let (stencil, weights) = (&even.stencil, self.even_weights(even));
-            for (k, &(i, a)) in stencil.iter().enumerate() {
-                for &(j, b) in &stencil[..=k] {
+        let free = &self.given.free;
+        let mut matrix = NormalMatrix::new(free.len(), &self.given.coupled());
+        for Stencil { shares, weights } in self.stencils() {
+            for (k, &(i, a)) in shares.iter().enumerate() {
+                for &(j, b) in &shares[..=k] {
                     let part = |c: usize| {
-                        let free = self.free[i][c / 3] && self.free[j][c / 3];
+                        let free = free[i][c / 3] && free[j][c / 3];
                         if free { a * b * weights[c / 3] * weights[c / 3] } else { 0.0 }
                     };
                     matrix.add_diagonal([i, j], &std::array::from_fn(part));
                 }
             }
         }
-        for (node, free) in self.free.iter().enumerate() {
+        for (node, free) in free.iter().enumerate() {
             // A held unknown is its own equation: no change.
             let held = |c: usize| if free[c / 3] { 0.0 } else { 1.0 };
             matrix.add_diagonal([node, node], &std::array::from_fn(held));
@@ -148,42 +174,45 @@ impl Energy {
         feet: &[Feet],
         matrix: &mut NormalMatrix,
     ) -> Vec<f64> {
-        let mut pull = vec![0.0; SIZE * self.free.len()];
+        let at = At { given: &self.given, now: state, feet };
+        let mut pull = vec![0.0; SIZE * feet.len()];
         let mut add = |node: usize, value: f64, slope: &Slope| {
             let pull = &mut pull[SIZE * node..SIZE * (node + 1)];
             pull.iter_mut().zip(slope).for_each(|(pull, slope)| *pull += value * slope);
         };
-        for fin in &self.fins {
-            let (value, slopes) = self.fin_row(fin, state);
+        for fin in &self.given.fins {
             let [i, j] = fin.ends;
-            let slopes = [self.masked(i, slopes[0]), self.masked(j, slopes[1])];
-            matrix.add_square(i, &slopes[0]);
-            matrix.add_square(j, &slopes[1]);
-            matrix.add_product(fin.ends, &slopes[0], &slopes[1]);
-            add(i, value, &slopes[0]);
-            add(j, value, &slopes[1]);
+            let row = &mut |value, [a, b]: [Slope; 2]| {
+                let slopes = [self.masked(i, a), self.masked(j, b)];
+                matrix.add_square(i, &slopes[0]);
+                matrix.add_square(j, &slopes[1]);
+                matrix.add_product(fin.ends, &slopes[0], &slopes[1]);
+                add(i, value, &slopes[0]);
+                add(j, value, &slopes[1]);
+            };
+            self.terms().for_each(|term| term.on_fin(fin, &at, row));
         }
-        for (node, feet) in feet.iter().enumerate() {
-            self.node_rows(node, state, feet, &mut |value, slope| {
+        for node in 0..feet.len() {
+            let row = &mut |value, slope| {
                 let slope = self.masked(node, slope);
                 matrix.add_square(node, &slope);
                 add(node, value, &slope);
-            });
+            };
+            self.terms().for_each(|term| term.on_node(node, &at, row));
         }
-        for even in &self.evens {
-            let value = self.even_rows(even, state);
-            let weights = self.even_weights(even);
-            for &(node, share) in &even.stencil {
-                let slope = |c: usize| share * weights[c / 3] * value[c];
+        for stencil in self.stencils() {
+            let rows = stencil.rows(&at);
+            for &(node, share) in &stencil.shares {
+                let slope = |c: usize| share * stencil.weights[c / 3] * rows[c];
                 add(node, 1.0, &self.masked(node, std::array::from_fn(slope)));
             }
         }
         pull
     }
 
-    /// Planarity (contract §2) of each fin, as a share of its diameter.
+    /// Planarity of each fin, as a share of its diameter.
     pub(super) fn planarities(&self, state: &State) -> impl Iterator<Item = f64> {
-        self.fins.iter().map(move |fin| {
+        self.given.fins.iter().map(move |fin| {
             let [a, b] =
                 fin.ends.map(|node| (state.positions[node], unit(state.axes[node])));
             let [[below_a, above_a], [below_b, above_b]] = fin.reach;
@@ -197,76 +226,10 @@ impl Energy {
         })
     }
 
-    /// How far a fin is from plane: height × [u, eᵢ, eⱼ], u the edge's unit vector.
-    fn fin_row(&self, fin: &Fin, state: &State) -> (f64, [Slope; 2]) {
-        let [i, j] = fin.ends;
-        let (a, b) = (state.axes[i], state.axes[j]);
-        let edge = state.positions[j] - state.positions[i];
-        let length = edge.norm();
-        let u = edge / length;
-        let height = fin.reach.iter().flatten().sum::<f64>() / 2.0;
-        let weight = self.weights.planarity * height;
-        let across = a.cross(&b);
-        let value = u.dot(&across);
-        let by_position = (across - u * value) * (weight / length);
-        let by_a = b.cross(&u) * weight;
-        let by_b = u.cross(&a) * weight;
-        (weight * value, [slope(-by_position, by_a), slope(by_position, by_b)])
-    }
-
-    /// The rows of one node alone.
-    fn node_rows(
-        &self,
-        node: usize,
-        state: &State,
-        feet: &Feet,
-        row: &mut dyn FnMut(f64, Slope),
-    ) {
-        let (x, e) = (state.positions[node], state.axes[node]);
-        let weights = &self.weights;
-        let zero = Vector3::zeros();
-        // Unit axis.
-        row(e.norm_squared() - 1.0, slope(zero, e * 2.0));
-        if let Some(foot) = feet.surface {
-            let off = foot.normal.dot(&(x - foot.point));
-            row(weights.closeness * off, slope(foot.normal * weights.closeness, zero));
-        }
-        if let Some((point, out)) = feet.rim {
-            row(weights.rim * out.dot(&(x - point)), slope(out * weights.rim, zero));
-        }
-        let (normal, least) = self.upright[node];
-        let short = e.dot(&normal) - least;
-        if short < 0.0 {
-            row(weights.walls * short, slope(zero, normal * weights.walls));
-        }
-        let moved = x - self.start.positions[node];
-        let far = moved.norm() - self.reach[node];
-        if far > 0.0 {
-            row(weights.walls * far, slope(unit(moved) * weights.walls, zero));
-        }
-    }
-
-    /// The six rows of a stencil: changes of positions and of axes.
-    fn even_rows(&self, even: &Even, state: &State) -> [f64; SIZE] {
-        let (mut moved, mut turned) = (Vector3::zeros(), Vector3::zeros());
-        for &(node, share) in &even.stencil {
-            moved += (state.positions[node] - self.start.positions[node]) * share;
-            turned += (state.axes[node] - self.start.axes[node]) * share;
-        }
-        let [by_move, by_turn] = self.even_weights(even);
-        slope(moved * by_move, turned * by_turn)
-    }
-
-    /// Weights of positions and of axes.
-    fn even_weights(&self, even: &Even) -> [f64; 2] {
-        let weights = &self.weights;
-        if even.stays { [weights.stay, weights.stay_axes] } else { [weights.fairness; 2] }
-    }
-
     /// Zero where the node is held.
     fn masked(&self, node: usize, mut slope: Slope) -> Slope {
         for (c, part) in slope.iter_mut().enumerate() {
-            if !self.free[node][c / 3] {
+            if !self.given.free[node][c / 3] {
                 *part = 0.0;
             }
         }
@@ -274,17 +237,22 @@ impl Energy {
     }
 }
 
-fn slope(position: Vector3, axis: Vector3) -> Slope {
-    [position.x, position.y, position.z, axis.x, axis.y, axis.z]
+impl Stencil {
+    /// Its six rows: changes of positions and of axes.
+    fn rows(&self, at: &At) -> [f64; SIZE] {
+        let start = &at.given.start;
+        let (mut moved, mut turned) = (Vector3::zeros(), Vector3::zeros());
+        for &(node, share) in &self.shares {
+            moved += (at.now.positions[node] - start.positions[node]) * share;
+            turned += (at.now.axes[node] - start.axes[node]) * share;
+        }
+        slope(moved * self.weights[0], turned * self.weights[1])
+    }
 }
 
-/// All pairs of nodes that a row couples.
-pub(super) fn coupled(fins: &[Fin], evens: &[Even]) -> Vec<[usize; 2]> {
-    let evens = evens.iter().flat_map(|even| {
-        let nodes = even.stencil.iter().enumerate();
-        nodes.flat_map(|(k, &(i, _))| even.stencil[..k].iter().map(move |&(j, _)| [i, j]))
-    });
-    fins.iter().map(|fin| fin.ends).chain(evens).collect()
+/// A derivative by position and by axis.
+pub(super) fn slope(position: Vector3, axis: Vector3) -> Slope {
+    [position.x, position.y, position.z, axis.x, axis.y, axis.z]
 }
 
 #[cfg(test)]
@@ -319,7 +287,7 @@ mod tests {
     fn derivatives_agree_with_finite_differences() {
         const STEP: f64 = 1e-6;
         let energy = energy();
-        let mut state = energy.start.clone();
+        let mut state = energy.given.start.clone();
         for (k, (point, axis)) in
             state.positions.iter_mut().zip(&mut state.axes).enumerate()
         {
@@ -331,7 +299,7 @@ mod tests {
         let pull = energy.linearise(&state, &feet, &mut energy.constant());
         for (k, pull) in pull.iter().enumerate() {
             let (node, c) = (k / SIZE, k % SIZE);
-            if !energy.free[node][c / 3] {
+            if !energy.given.free[node][c / 3] {
                 assert_eq!(pull.to_bits(), 0.0_f64.to_bits());
                 continue;
             }

@@ -79,7 +79,7 @@ impl Judged<'_> {
         let (place, &share) = worst.filter(|_| count > 0)?;
         let fin = fins[place];
         let diameter_mm =
-            self.task.energy.fins[place].reach.iter().flatten().sum::<f64>() / 2.0
+            self.task.energy.given.fins[place].reach.iter().flatten().sum::<f64>() / 2.0
                 * self.task.unit;
         let length =
             (self.result.positions[fin[0]] - self.result.positions[fin[1]]).norm();
@@ -94,18 +94,18 @@ impl Judged<'_> {
     }
 
     fn reason(&self, fin: [usize; 2], options: &Options) -> Reason {
-        let place = self.task.place();
-        let energy = &self.task.energy;
+        let inside = &self.task.energy.given;
+        let place = &inside.place;
         let on_rim = |[i, j]: [NodeId; 2]| {
             let side = self.mesh.half_edge(i, j).or(self.mesh.half_edge(j, i));
             side.is_some_and(|side| self.mesh.is_boundary_edge(self.mesh.edge(side)))
         };
-        let held = |&node: &usize| energy.free[place[node]] != [true; 2];
+        let held = |&node: &usize| inside.free[place[node]] != [true; 2];
         let tilts: Vec<f64> = self.tilts().collect();
         let tilted = |&node: &usize| tilts[node] >= options.tilt_limit;
         let far = |&node: &usize| {
             let moved = (self.result.positions[node] - self.given.positions[node]).norm();
-            moved >= energy.reach[place[node]] * self.task.unit
+            moved >= inside.reach[place[node]] * self.task.unit
         };
         let corners = |face: usize| self.mesh.corners(FaceId::new(face));
         let beside =

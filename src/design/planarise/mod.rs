@@ -18,14 +18,16 @@ mod options;
 mod picture;
 mod setup;
 mod surface;
+mod terms;
 
 pub use descent::Step;
 pub use figures::{Figures, Spread};
 pub use finding::{DesignFinding, Reason};
 pub use needed::planarised_if_needed;
-pub use options::{Options, Weights};
+pub use options::Options;
 pub use picture::{PictureError, picture};
 pub use setup::smoothed_axes;
+pub use terms::{WISHES, Weights, Wish};
 
 use crate::design::planarise::descent::{Broken, descend};
 use crate::design::planarise::energy::State;
@@ -104,7 +106,7 @@ fn planarise_sound(
         return Err(DesignFinding::NoInnerFin { edges: mesh.edge_count() }.into());
     }
     let mut task = setup::task(draft, mesh, options, &fins);
-    let before = Spread::of(task.energy.planarities(&task.energy.start));
+    let before = Spread::of(task.energy.planarities(&task.energy.given.start));
     let (mut result, mut history) = (given.clone(), Vec::new());
     if before.worst > options.target {
         let found = descend(&mut task.energy, options.target, options.steps, watch);

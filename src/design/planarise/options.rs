@@ -1,55 +1,7 @@
 //! What may be chosen, and what it does.
 
+use crate::design::planarise::terms::Weights;
 use crate::tolerance::PLANAR_ENOUGH;
-
-/// How much each wish counts. A residual of one is a fin out of plane by its own height,
-/// or a node one median fin length away from where it should be.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Weights {
-    /// Planarity of fins. It is raised on its own until the target is met.
-    pub planarity: f64,
-    /// Distance of nodes to the given surface.
-    pub closeness: f64,
-    /// Distance of boundary nodes to the given boundary, measured inside the surface.
-    pub rim: f64,
-    /// Even change along lines of the mesh: keeps spacing and sweep as given.
-    pub fairness: f64,
-    /// Nodes stay where they are.
-    pub stay: f64,
-    /// Axes stay as they start.
-    pub stay_axes: f64,
-    /// Walls: how hard the limits of move and tilt are.
-    pub walls: f64,
-}
-
-impl Weights {
-    /// Nothing counts, but that axes have length one.
-    pub(super) const fn none() -> Self {
-        Self {
-            planarity: 0.0,
-            closeness: 0.0,
-            rim: 0.0,
-            fairness: 0.0,
-            stay: 0.0,
-            stay_axes: 0.0,
-            walls: 0.0,
-        }
-    }
-}
-
-impl Default for Weights {
-    fn default() -> Self {
-        Self {
-            planarity: 10.0,
-            closeness: 0.5,
-            rim: 1.0,
-            fairness: 0.05,
-            stay: 0.002,
-            stay_axes: 0.05,
-            walls: 3.0,
-        }
-    }
-}
 
 /// How to planarise.
 #[derive(Debug, Clone, PartialEq)]
@@ -62,7 +14,7 @@ pub struct Options {
     pub fixed_axes: Vec<usize>,
     /// How much each wish counts.
     pub weights: Weights,
-    /// Worst planarity that is good enough, as a share of a fin's diameter (contract §2).
+    /// Worst planarity that is good enough, as a share of a fin's diameter.
     pub target: f64,
     /// Largest angle between an axis and the surface normal, radians.
     pub tilt_limit: f64,

@@ -1,9 +1,10 @@
 //! From a mesh and options to the energy that is minimised.
 
-use crate::design::planarise::energy::{Energy, Even, Fin, State, coupled};
+use crate::design::planarise::energy::{Energy, Fin, Given, State};
 use crate::design::planarise::matrix::elimination_order;
 use crate::design::planarise::options::Options;
 use crate::design::planarise::surface::{Surface, rim_beside, unit};
+use crate::design::planarise::terms::{Planarity, wishes};
 use crate::geometry::{Mesh, Point3, Vector3, trig};
 use crate::ids::{EdgeId, NodeId};
 use crate::structure::Draft;
@@ -23,9 +24,9 @@ impl Task {
     pub(super) fn placed(&self, given: &State, found: &State) -> State {
         let mut placed = given.clone();
         for (k, &node) in self.order.iter().enumerate() {
-            let moved = found.positions[k] - self.energy.start.positions[k];
+            let moved = found.positions[k] - self.energy.given.start.positions[k];
             placed.positions[node] += moved * self.unit;
-            if self.energy.free[k][1] {
+            if self.energy.given.free[k][1] {
                 placed.axes[node] = unit(found.axes[k]);
             }
         }
@@ -34,20 +35,13 @@ impl Task {
 
     /// Numbered and scaled as inside.
     pub(super) fn inside(&self, given: &State, state: &State) -> State {
-        let mut inside = self.energy.start.clone();
+        let mut inside = self.energy.given.start.clone();
         for (k, &node) in self.order.iter().enumerate() {
             let moved = state.positions[node] - given.positions[node];
             inside.positions[k] += moved / self.unit;
             inside.axes[k] = state.axes[node];
         }
         inside
-    }
-
-    /// The place of each node of the mesh.
-    pub(super) fn place(&self) -> Vec<usize> {
-        let mut place = vec![0; self.order.len()];
-        self.order.iter().enumerate().for_each(|(k, &node)| place[node] = k);
-        place
     }
 }
 
@@ -101,29 +95,31 @@ pub(super) fn task(
     let positions: Vec<Point3> = draft.positions.iter().map(inside).collect();
     let axes: Vec<Vector3> = draft.axes.iter().map(|axis| axis.normalize()).collect();
     let corners = corners(mesh, &positions);
-    let evens = evens(mesh);
     let reach =
         |node: usize| [draft.below[node] / unit_length, draft.above[node] / unit_length];
     let fins: Vec<Fin> =
         fins.iter().map(|&ends| Fin { ends, reach: ends.map(reach) }).collect();
-    let order = elimination_order(nodes, &coupled(&fins, &evens));
-    let surface = Surface::new(mesh, &positions, &corners);
-    let upright = (0..nodes).map(|node| upright(&surface, node, axes[node], options));
-    let far = far(&positions, &fins, mesh, options);
+    let edges: Vec<[usize; 2]> = mesh.edges().map(|edge| ends(mesh, edge)).collect();
     let mut free: Vec<[bool; 2]> = corners.iter().map(|corner| [!corner, true]).collect();
     options.fixed_nodes.iter().filter(|&&k| k < nodes).for_each(|&k| free[k][0] = false);
     options.fixed_axes.iter().filter(|&&k| k < nodes).for_each(|&k| free[k][1] = false);
-    let energy = Energy {
-        upright: upright.collect(),
+    let given = Given {
+        surface: Surface::new(mesh, &positions, &corners),
+        reach: far(&positions, &fins, &edges, options),
         start: State { positions, axes },
         fins,
-        evens,
-        surface,
-        weights: options.weights,
-        reach: far,
+        edges,
         free,
+        place: (0..nodes).collect(),
     };
-    Task { energy: energy.renumbered(&order), unit: unit_length, order }
+    let order = elimination_order(nodes, &given.coupled());
+    let given = given.renumbered(&order);
+    let energy = Energy {
+        planarity: Planarity::new(&options.weights),
+        wishes: wishes(&given, options),
+        given,
+    };
+    Task { energy, unit: unit_length, order }
 }
 
 fn median_length(draft: &Draft, fins: &[[usize; 2]]) -> f64 {
@@ -133,24 +129,15 @@ fn median_length(draft: &Draft, fins: &[[usize; 2]]) -> f64 {
     lengths[lengths.len() / 2]
 }
 
-/// The normal on the axis' side and the least cosine between the two. An axis that starts
-/// beyond the limit was meant to and may stay.
-fn upright(
-    surface: &Surface,
-    node: usize,
-    axis: Vector3,
-    options: &Options,
-) -> (Vector3, f64) {
-    let normal = surface.normal(node);
-    let normal = if normal.dot(&axis) < 0.0 { -normal } else { normal };
-    (normal, trig::cos(options.tilt_limit).min(normal.dot(&axis)))
-}
-
 /// How far each node may move: a share of its shortest edge.
-fn far(positions: &[Point3], fins: &[Fin], mesh: &Mesh, options: &Options) -> Vec<f64> {
+fn far(
+    positions: &[Point3],
+    fins: &[Fin],
+    edges: &[[usize; 2]],
+    options: &Options,
+) -> Vec<f64> {
     let mut shortest = vec![1.0_f64; positions.len()];
-    let edges = mesh.edges().map(|edge| ends(mesh, edge));
-    for [i, j] in fins.iter().map(|fin| fin.ends).chain(edges) {
+    for &[i, j] in fins.iter().map(|fin| &fin.ends).chain(edges) {
         let length = (positions[i] - positions[j]).norm();
         shortest[i] = shortest[i].min(length);
         shortest[j] = shortest[j].min(length);
@@ -166,15 +153,4 @@ fn corners(mesh: &Mesh, positions: &[Point3]) -> Vec<bool> {
         trig::atan2(to.cross(&from).norm(), to.dot(&from)) > CORNER_TURN
     };
     mesh.nodes().map(turns).collect()
-}
-
-/// Every node stays, and neighbours change alike: along every edge, whether it carries a
-/// fin or not.
-fn evens(mesh: &Mesh) -> Vec<Even> {
-    let alike = |edge| {
-        let [i, j] = ends(mesh, edge);
-        Even { stencil: vec![(i, 1.0), (j, -1.0)], stays: false }
-    };
-    let stays = |node| Even { stencil: vec![(node, 1.0)], stays: true };
-    mesh.edges().map(alike).chain((0..mesh.node_count()).map(stays)).collect()
 }

@@ -109,7 +109,7 @@ impl Surface {
 
     /// The foot of a point that belongs to a boundary node on the boundary, with the unit
     /// tangent there.
-    pub(super) fn rim_foot(
+    pub(super) fn boundary_foot(
         &self,
         node: usize,
         point: Point3,
