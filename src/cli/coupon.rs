@@ -9,10 +9,10 @@ use crate::gate::approve_loose;
 use crate::job;
 use crate::joint::Joint;
 use crate::nest::Effort;
-use crate::order;
 use crate::parts::{CouponMark, Fitted};
 use crate::report::{self, Source};
 use crate::template::{self, Template};
+use crate::vendor;
 use clap::Args;
 use std::path::{Path, PathBuf};
 
@@ -79,10 +79,10 @@ fn make(args: &CouponArgs, template: &Template, voice: Voice) -> Result<End, Fai
         named(("parts.csv".to_owned(), bill.into_bytes())),
     ];
     let cut = approve_loose(&job.sheets, &job.findings);
-    let ordered = job.order.as_ref().and_then(|o| approve_loose(o, &job.findings));
+    let vendor = job.vendor.as_ref().and_then(|v| approve_loose(v, &job.findings));
     let cut = cut.map(|sheets| {
-        let ordered = ordered.iter().flat_map(order::files);
-        export::cut_files(&sheets).into_iter().chain(ordered).collect()
+        let vendor = vendor.iter().flat_map(vendor::files);
+        export::cut_files(&sheets).into_iter().chain(vendor).collect()
     });
     let drawn = draw(&job, cut, &mut files, &mut manifest, voice);
     jobdir::write(&dir, &files)?;

@@ -18,12 +18,12 @@ use crate::export;
 use crate::job::{self, Interrupted, Job, Order};
 use crate::joint::Joint;
 use crate::nest::Effort;
-use crate::order;
 use crate::proof::Proof;
 use crate::replacement;
 use crate::report::{self, Page, Source};
 use crate::structure::{Structure, write_json};
 use crate::template::Template;
+use crate::vendor;
 use crate::watch::Watch;
 use clap::CommandFactory;
 use miette::Diagnostic;
@@ -257,12 +257,12 @@ pub(super) struct Drawn {
     pub proof: Option<Proof>,
 }
 
-/// The files for the laser, of the sheets and of the order, if nothing forbids them.
+/// The files for the laser, of the sheets and for the vendor, if nothing forbids them.
 fn cut_files(job: &Job, joint: Joint, template: &Template) -> Option<Vec<export::File>> {
     let sheets = job.approved(joint, template).ok()?;
     let mut files = export::cut_files(&sheets);
-    let order = job.approved_order(joint, template);
-    files.extend(order.iter().flat_map(order::files));
+    let vendor = job.approved_vendor(joint, template);
+    files.extend(vendor.iter().flat_map(vendor::files));
     (!job.sheets.is_empty()).then_some(files)
 }
 

@@ -9,7 +9,6 @@ use crate::gate::{self, Approved, Judged, Shut};
 use crate::geometry::{Contour, Point2};
 use crate::joint::Joint;
 use crate::nest::{self, Effort, Layout, NestError, Shape, Stock};
-use crate::order::{self, Profile, Wanted};
 use crate::parts::{self, Body, ConnectorFinding, Making, Part, Step};
 use crate::rigidity::{Fingerprint, Stopped, Verdict};
 pub use crate::setting::fit;
@@ -18,6 +17,7 @@ use crate::sheets::{self, Kerf, Laying, Sheet};
 use crate::structure::{Draft, Structure};
 use crate::template::Template;
 use crate::tolerance::ARC_SAGITTA_MM;
+use crate::vendor::{self, Profile, Request, VendorSheets};
 use crate::watch::Watch;
 use judge::{has_hub, judged};
 
@@ -59,7 +59,7 @@ pub struct Job {
     /// What the laser does.
     pub sheets: Vec<Sheet>,
     /// The same for the service or machine that the template names.
-    pub order: Option<order::Order>,
+    pub vendor: Option<VendorSheets>,
 }
 
 /// The work was stopped from outside.
@@ -132,7 +132,7 @@ pub(crate) fn on_sheets(
         kerf,
         frame: template.output.frame.then_some(&frame),
     });
-    job.order(template);
+    job.lay_for_vendor(template);
     Ok(job)
 }
 
@@ -177,15 +177,15 @@ impl Job {
         self.parts.iter().any(|part| is(&part.body))
     }
 
-    /// Makes the files' sheets for the service that the template names, if it names one.
-    fn order(&mut self, template: &Template) {
+    /// Makes the sheets for the service that the template names, if it names one.
+    fn lay_for_vendor(&mut self, template: &Template) {
         let output = &template.output;
         let Some(profile) = Profile::named(&output.profile) else { return };
         let per_part = output.one_file_per == "part";
         if self.sheets.is_empty() || profile.is_generic() && !per_part {
             return;
         }
-        let wanted = Wanted {
+        let request = Request {
             profile,
             per_part,
             parts: &self.parts,
@@ -193,10 +193,10 @@ impl Job {
             stock: &self.stock,
             kerf_mm: template.material.kerf_mm,
         };
-        let order = order::order(&wanted);
-        let found = order::check(&order, &wanted);
+        let vendor = vendor::vendor_sheets(&request);
+        let found = vendor::check(&vendor, &request);
         self.findings.extend(found.into_iter().map(Finding::from));
-        self.order = Some(order);
+        self.vendor = Some(vendor);
     }
 
     /// Makes the structure into parts.
@@ -237,13 +237,13 @@ impl Job {
         self.pass(&self.sheets, joint, template)
     }
 
-    /// The order, if there is one and the sheets pass.
-    pub fn approved_order(
+    /// The sheets for the vendor, if there are any and they pass.
+    pub fn approved_vendor(
         &self,
         joint: Joint,
         template: &Template,
-    ) -> Option<Approved<&order::Order>> {
-        self.pass(self.order.as_ref()?, joint, template).ok()
+    ) -> Option<Approved<&VendorSheets>> {
+        self.pass(self.vendor.as_ref()?, joint, template).ok()
     }
 
     fn pass<T>(

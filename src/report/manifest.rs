@@ -5,13 +5,13 @@ use crate::geometry::{Contour, Point2};
 use crate::job::Job;
 use crate::joint::Joint;
 use crate::nest::{NestedSheet, Stock};
-use crate::order::{Format, Order};
 use crate::parts::{self, Body, FlatAxis, Opening, Part, Slit, Step, StripBody};
 use crate::proof::Limits;
 use crate::report::connectors;
 use crate::sheets::{Operation, Path, Sheet};
 use crate::template::Template;
 use crate::tolerance::ARC_SAGITTA_MM;
+use crate::vendor::{Format, VendorSheets};
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
 
@@ -61,7 +61,7 @@ pub fn manifest(job: &Job, source: &Source) -> Value {
         "proof": {"limits": limits(source.template)},
         "parts": job.parts.iter().map(part).collect::<Vec<_>>(),
         "sheets": sheets(job),
-        "order": job.order.as_ref().map(|order| ordered(job, order)),
+        "order": job.vendor.as_ref().map(|vendor| for_vendor(job, vendor)),
         "assembly": assembly(job, source.template),
         "hardware": connectors::bought(&job.parts),
         "totals": totals(job, source.template),
@@ -203,24 +203,25 @@ fn placements(job: &Job, nested: &NestedSheet, copies: &mut Copies) -> Vec<Value
 }
 
 /// The files for a service, with where parts lie in them.
-fn ordered(job: &Job, order: &Order) -> Value {
+fn for_vendor(job: &Job, vendor: &VendorSheets) -> Value {
     let mut copies = Copies::default();
-    let sheets = order.sheets.iter().zip(&order.layout.sheets).map(|(sheet, nested)| {
-        json!({
-            "id": sheet.id,
-            "width": sheet.width,
-            "height": sheet.height,
-            "files": {
-                "dxf": order.path(sheet, Format::Dxf),
-                "svg": order.path(sheet, Format::Svg),
-            },
-            "placements": placements(job, nested, &mut copies),
-        })
-    });
+    let sheets =
+        vendor.sheets.iter().zip(&vendor.layout.sheets).map(|(sheet, nested)| {
+            json!({
+                "id": sheet.id,
+                "width": sheet.width,
+                "height": sheet.height,
+                "files": {
+                    "dxf": vendor.path(sheet, Format::Dxf),
+                    "svg": vendor.path(sheet, Format::Svg),
+                },
+                "placements": placements(job, nested, &mut copies),
+            })
+        });
     json!({
-        "profile": order.profile.name,
-        "kerf": order.kerf_mm,
-        "pdf": order.pdf_path(),
+        "profile": vendor.profile.name,
+        "kerf": vendor.kerf_mm,
+        "pdf": vendor.pdf_path(),
         "sheets": sheets.collect::<Vec<_>>(),
     })
 }

@@ -23,7 +23,7 @@ const ORDER: &[&str] = &[
     "sheets",
     "gate",
     "export",
-    "order",
+    "vendor",
     "setting",
     "proof",
     "job",

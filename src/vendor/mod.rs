@@ -6,7 +6,7 @@
 mod finding;
 mod profile;
 
-pub use finding::OrderFinding;
+pub use finding::VendorFinding;
 pub use profile::{Format, PROFILES, Profile};
 
 use crate::export::{self, File};
@@ -17,9 +17,9 @@ use crate::parts::{Body, Part};
 use crate::sheets::{Kerf, Laying, Operation, Sheet, sheets};
 use crate::tolerance::WRITTEN_MM;
 
-/// Files for one service.
+/// Sheets for one service or machine.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Order {
+pub struct VendorSheets {
     /// What the service takes.
     pub profile: &'static Profile,
     /// Whether each part is in a file of its own.
@@ -32,9 +32,9 @@ pub struct Order {
     pub sheets: Vec<Sheet>,
 }
 
-/// What an order is made from.
+/// What the sheets of a vendor are made from.
 #[derive(Clone, Copy)]
-pub struct Wanted<'a> {
+pub struct Request<'a> {
     /// What the service takes.
     pub profile: &'static Profile,
     /// Whether each part is to be in a file of its own even if the service takes sheets.
@@ -49,28 +49,28 @@ pub struct Wanted<'a> {
     pub kerf_mm: f64,
 }
 
-/// The sheets of an order.
-pub fn order(wanted: &Wanted) -> Order {
-    let profile = wanted.profile;
-    let per_part = wanted.per_part || profile.per_part;
-    let kerf_mm = if profile.kerf { wanted.kerf_mm } else { 0.0 };
+/// The sheets as the vendor wants them.
+pub fn vendor_sheets(request: &Request) -> VendorSheets {
+    let profile = request.profile;
+    let per_part = request.per_part || profile.per_part;
+    let kerf_mm = if profile.kerf { request.kerf_mm } else { 0.0 };
     let kerf = Kerf::from_width_mm(kerf_mm);
-    let single = per_part.then(|| each_alone(wanted.parts, kerf));
+    let single = per_part.then(|| each_alone(request.parts, kerf));
     let (layout, stock) = match &single {
         Some((layout, stock)) => (layout, stock.as_slice()),
-        None => (wanted.layout, wanted.stock),
+        None => (request.layout, request.stock),
     };
-    let laying = Laying { parts: wanted.parts, layout, stock, kerf, frame: None };
+    let laying = Laying { parts: request.parts, layout, stock, kerf, frame: None };
     let mut sheets = sheets(&laying);
     for (sheet, nested) in sheets.iter_mut().zip(&layout.sheets) {
         if !profile.marks {
             sheet.strokes.retain(|stroke| stroke.operation >= Operation::CutInner);
         }
         if let (true, [placement]) = (per_part, nested.placements.as_slice()) {
-            sheet.id = file_name(&wanted.parts[placement.shape]);
+            sheet.id = file_name(&request.parts[placement.shape]);
         }
     }
-    Order { profile, per_part, kerf_mm, layout: layout.clone(), sheets }
+    VendorSheets { profile, per_part, kerf_mm, layout: layout.clone(), sheets }
 }
 
 /// The name of a part's own file says how many to cut.
@@ -100,10 +100,10 @@ fn each_alone(parts: &[Part], kerf: Kerf) -> (Layout, Vec<Stock>) {
     (Layout { sheets }, stock)
 }
 
-/// The folder of an order inside a job.
+/// The folder of a vendor's files inside a job.
 pub const FOLDER: &str = "order";
 
-impl Order {
+impl VendorSheets {
     /// Path of a sheet's file, if the service takes that kind.
     pub fn path(&self, sheet: &Sheet, format: Format) -> Option<String> {
         let ending = match format {
@@ -122,53 +122,59 @@ impl Order {
     }
 }
 
-/// The files of an approved order.
-pub fn files(approved: &Approved<&Order>) -> Vec<File> {
-    let order = approved.get();
-    let layers = order.profile.layers();
+/// The files of approved sheets.
+pub fn files(approved: &Approved<&VendorSheets>) -> Vec<File> {
+    let vendor = approved.get();
+    let layers = vendor.profile.layers();
     let mut files = Vec::new();
-    for sheet in &order.sheets {
-        let dxf = order.path(sheet, Format::Dxf).map(|path| (path, export::dxf(sheet)));
-        let svg = order.path(sheet, Format::Svg);
+    for sheet in &vendor.sheets {
+        let dxf = vendor.path(sheet, Format::Dxf).map(|path| (path, export::dxf(sheet)));
+        let svg = vendor.path(sheet, Format::Svg);
         let svg = svg.map(|path| (path, export::svg_in(sheet, &layers)));
         files.extend(dxf.into_iter().chain(svg));
     }
-    let pdf = order.pdf_path().map(|path| (path, export::pdf_in(&order.sheets, &layers)));
+    let pdf =
+        vendor.pdf_path().map(|path| (path, export::pdf_in(&vendor.sheets, &layers)));
     files.extend(pdf);
     files
 }
 
-/// The rules of the service that the order does not keep.
-pub fn check(order: &Order, wanted: &Wanted) -> Vec<OrderFinding> {
-    let profile = order.profile;
-    let marks = wanted.parts.iter().map(|part| part.marks.len()).sum();
-    let unmarked = OrderFinding::Unmarked { count: marks, profile: profile.name };
+/// The rules of the service that the sheets do not keep.
+pub fn check(vendor: &VendorSheets, request: &Request) -> Vec<VendorFinding> {
+    let profile = vendor.profile;
+    let marks = request.parts.iter().map(|part| part.marks.len()).sum();
+    let unmarked = VendorFinding::Unmarked { count: marks, profile: profile.name };
     let unmarked = (!profile.marks && marks > 0).then_some(unmarked);
-    let sizes = order.sheets.iter().filter_map(|sheet| too_large(order, wanted, sheet));
-    let used = wanted.layout.sheets.iter().map(|sheet| sheet.stock);
+    let sizes =
+        vendor.sheets.iter().filter_map(|sheet| too_large(vendor, request, sheet));
+    let used = request.layout.sheets.iter().map(|sheet| sheet.stock);
     let spacing =
-        used.map(|stock| wanted.stock[stock].spacing).fold(f64::INFINITY, f64::min);
+        used.map(|stock| request.stock[stock].spacing).fold(f64::INFINITY, f64::min);
     let least_mm = profile.least_gap_mm;
-    let near = OrderFinding::LinesTooNear {
+    let near = VendorFinding::LinesTooNear {
         spacing_mm: spacing,
         profile: profile.name,
         least_mm,
     };
-    let near = (!order.per_part && spacing <= least_mm).then_some(near);
-    sizes.chain(unmarked).chain(near).chain(narrow(order, wanted)).collect()
+    let near = (!vendor.per_part && spacing <= least_mm).then_some(near);
+    sizes.chain(unmarked).chain(near).chain(narrow(vendor, request)).collect()
 }
 
-fn too_large(order: &Order, wanted: &Wanted, sheet: &Sheet) -> Option<OrderFinding> {
-    let [wide_mm, high_mm] = order.profile.largest_mm?;
+fn too_large(
+    vendor: &VendorSheets,
+    request: &Request,
+    sheet: &Sheet,
+) -> Option<VendorFinding> {
+    let [wide_mm, high_mm] = vendor.profile.largest_mm?;
     let (width_mm, height_mm) = (sheet.width, sheet.height);
     let fits = |w: f64, h: f64| w <= wide_mm && h <= high_mm;
-    let part = wanted.parts.iter().map(file_name).position(|name| name == sheet.id);
-    let too_large = OrderFinding::TooLarge {
+    let part = request.parts.iter().map(file_name).position(|name| name == sheet.id);
+    let too_large = VendorFinding::TooLarge {
         file: sheet.id.clone(),
-        part: part.map(|part| wanted.parts[part].id.clone()),
+        part: part.map(|part| request.parts[part].id.clone()),
         width_mm,
         height_mm,
-        profile: order.profile.name,
+        profile: vendor.profile.name,
         wide_mm,
         high_mm,
     };
@@ -176,19 +182,19 @@ fn too_large(order: &Order, wanted: &Wanted, sheet: &Sheet) -> Option<OrderFindi
 }
 
 /// Slits whose two lines are as near as burns together.
-fn narrow(order: &Order, wanted: &Wanted) -> Vec<OrderFinding> {
-    let least_mm = order.profile.least_gap_mm;
+fn narrow(vendor: &VendorSheets, request: &Request) -> Vec<VendorFinding> {
+    let least_mm = vendor.profile.least_gap_mm;
     let mut all = Vec::new();
-    for part in wanted.parts {
+    for part in request.parts {
         let Body::Strip(body) = &part.body else { continue };
         for (slit, _) in &body.slits {
-            let width_mm = slit.width() - order.kerf_mm;
+            let width_mm = slit.width() - vendor.kerf_mm;
             if width_mm <= least_mm {
-                all.push(OrderFinding::SlitTooNarrow {
+                all.push(VendorFinding::SlitTooNarrow {
                     part: part.id.clone(),
                     node: slit.node,
                     width_mm,
-                    profile: order.profile.name,
+                    profile: vendor.profile.name,
                     least_mm,
                 });
             }

@@ -7,7 +7,7 @@ use thiserror::Error;
 /// A rule of a profile that is not kept, or what follows from one.
 #[derive(Debug, Clone, PartialEq, Error, Diagnostic)]
 #[allow(missing_docs, reason = "the messages say it")]
-pub enum OrderFinding {
+pub enum VendorFinding {
     #[error(
         "{file} is {width_mm:.0} x {height_mm:.0} mm; {profile} takes {wide_mm:.0} x {high_mm:.0} mm"
     )]
@@ -64,7 +64,7 @@ pub enum OrderFinding {
     },
 }
 
-impl Located for OrderFinding {
+impl Located for VendorFinding {
     fn place(&self) -> Place {
         match self {
             Self::TooLarge { part: Some(part), .. } => Place::part(part),
