@@ -12,32 +12,33 @@
 //! 7. [`export`]: DXF, SVG, PDF and PNG. [`report`]: the manifest and the bill of parts.
 //! 8. [`proof`]: the written bytes back to parts, folded and compared with the structure.
 //!
-//! [`job`] runs them; [`cli`] is the only room that touches the world. Units are
-//! millimetres and radians inside.
+//! [`fabrication`] runs them as far as sheets, [`job`] all of them: from a specification to
+//! everything that a job directory holds. `cli` is the only room that touches the world.
+//! Units are millimetres and radians inside.
 //!
 //! ```
-//! use finwright::{design::examples, export, gate, job, joint::Joint, nest::Effort, template};
+//! use finwright::{design::examples, job, settings::Settings, template};
 //!
 //! let source = template::embedded("pmma-cast-3").unwrap();
 //! let template = template::read(source, "pmma-cast-3").unwrap();
-//! let order = job::Order {
-//!     draft: (examples::named("three").unwrap().draft)(),
-//!     template: &template,
-//!     joint: Joint::Lap,
-//!     effort: Effort { trials: 1, seed: 0 },
-//!     accepted_flexible: None,
+//! let specification = job::Specification {
+//!     input: job::Input::embedded(examples::named("three").unwrap(), &job::Reading::default()),
+//!     settings: Settings::new(template),
+//!     planarise: true,
+//!     apply_remedies: false,
+//!     only: Vec::new(),
 //! };
-//! let job = job::run(order, &mut ()).unwrap();
-//! let approved = job.approved(Joint::Lap, &template).unwrap();
-//! let files = export::cut_files(&approved);
-//! assert!(files.iter().any(|(path, _)| path == "sheets/sheet-01.dxf"));
+//! let job = job::make(specification, &mut ()).unwrap();
+//! assert_eq!(job.end, job::End::Approved);
+//! assert!(job.files.iter().any(|(path, _)| path == "sheets/sheet-01.dxf"));
+//! assert!(job.files.iter().any(|(path, _)| path == "report.html"));
 //! ```
 
-pub mod advice;
 pub mod cli;
 pub mod design;
 pub mod diagnostic;
 pub mod export;
+pub mod fabrication;
 pub mod gate;
 pub mod geometry;
 pub mod ids;
@@ -47,10 +48,9 @@ pub mod lettering;
 pub mod nest;
 pub mod parts;
 pub mod proof;
-pub mod replacement;
 pub mod report;
 pub mod rigidity;
-mod setting;
+pub mod settings;
 pub mod sheets;
 mod sparse;
 pub mod structure;

@@ -1,19 +1,18 @@
 //! `check --advise`: which scale a template can make.
 
-use crate::advice::{Advice, Question, Tried, smallest_scale};
-use crate::cli::args::InputArgs;
+use crate::cli::console::{Console, Terminal};
+use crate::cli::flags::structure::InputArgs;
 use crate::cli::input;
-use crate::cli::run::{End, Failure, print};
-use crate::cli::show::{Terminal, Voice};
+use crate::cli::outcome::{End, Failure, print};
+use crate::job::{Advice, Question, Tried, smallest_scale};
 
 /// Looks for the smallest scale and prints what was tried.
-pub(super) fn run(args: &InputArgs, voice: Voice) -> Result<End, Failure> {
-    let template = input::template(&args.template)?.with_hub_nodes(&args.hubs);
+pub(super) fn run(args: &InputArgs, console: Console) -> Result<End, Failure> {
+    let settings = input::settings(args)?;
     let draft = input::structure(args)?.draft;
-    let mut terminal = Terminal::new(voice, None);
+    let mut terminal = Terminal::new(console, None);
     let depth = args.depth.map(|depth| [depth.below, depth.above]);
-    let question =
-        Question { draft: &draft, template: &template, joint: args.joint, depth };
+    let question = Question { draft: &draft, settings: &settings, depth };
     let advice = smallest_scale(&question, &mut terminal);
     terminal.finish();
     let advice = advice?;
@@ -23,7 +22,7 @@ pub(super) fn run(args: &InputArgs, voice: Voice) -> Result<End, Failure> {
     } else {
         print(&table(&advice, scale));
     }
-    voice.say(&match advice.least() {
+    console.say(&match advice.least() {
         Some(factor) => format!(
             "smallest scale that passes: 1:{}, {factor:.2} times the one given",
             number(scale(factor))

@@ -1,9 +1,9 @@
 //! `template` and `example`: what is embedded in the program.
 
-use crate::cli::args::{ExampleAction, TemplateAction};
+use crate::cli::flags::{ExampleAction, TemplateAction};
 use crate::cli::input::{self, InputError};
 use crate::cli::jobdir::JobDirError;
-use crate::cli::run::{End, Failure, print};
+use crate::cli::outcome::{End, Failure, print};
 use crate::design::examples;
 use crate::structure::{Structure, write_json};
 use crate::template;

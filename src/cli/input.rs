@@ -1,17 +1,16 @@
 //! From what was typed to a draft and a template: the only place that reads files.
 
-use crate::cli::args::{Depth, Fix, InputArgs};
+use crate::cli::flags::planarise::PlanariseWhen;
+use crate::cli::flags::structure::InputArgs;
+use crate::cli::flags::value::EffortLevel;
 use crate::design::examples;
 use crate::diagnostic::{Finding, Located, Place};
-use crate::geometry::{Mesh, Point3};
-use crate::structure::{
-    AxisRule, Draft, ObjOptions, ReadError, exchange, read_json, read_obj,
-};
+use crate::job::{Input, Reading, Specification};
+use crate::nest::Effort;
+use crate::settings::Settings;
+use crate::structure::ReadError;
 use crate::template::{self, Template, TemplateErrors};
-use crate::tolerance::SAME_HEIGHT;
-use crate::units::Unit;
 use miette::Diagnostic;
-use sha2::{Digest, Sha256};
 use std::path::{Path, PathBuf};
 use thiserror::Error;
 
@@ -72,42 +71,34 @@ impl InputError {
     }
 }
 
-/// An option that had no effect.
-#[derive(Debug, Error, Diagnostic)]
-#[allow(missing_docs, reason = "the messages say it")]
-pub(super) enum InputNote {
-    #[error("--units was not used: {file} says its own unit")]
-    #[diagnostic(
-        code(input::units_ignored),
-        severity(Warning),
-        help("change \"units\" in the file, or use `--scale`; --units is for OBJ files")
-    )]
-    UnitsIgnored { file: String },
+/// What the arguments ask for.
+///
+/// # Errors
+/// [`InputError`] if there is no such template or structure.
+pub(super) fn specification(args: &InputArgs) -> Result<Specification, InputError> {
+    Ok(Specification {
+        settings: settings(args)?,
+        input: structure(args)?,
+        planarise: args.planarise == PlanariseWhen::Auto,
+        apply_remedies: false,
+        only: Vec::new(),
+    })
 }
 
-impl Located for InputNote {
-    fn place(&self) -> Place {
-        Place::default()
-    }
-}
-
-/// A structure that was read, with where it came from.
-pub(super) struct Input {
-    /// What was read, mm at model scale.
-    pub draft: Draft,
-    /// Name of the file, without its folder.
-    pub file: String,
-    /// SHA-256 of what was read.
-    pub sha256: String,
-    /// Whether the format says which edges carry fins.
-    pub lists_fins: bool,
-    /// Found while reading.
-    pub findings: Vec<Finding>,
-}
-
-/// SHA-256 as hexadecimal digits.
-pub(super) fn sha256(bytes: &[u8]) -> String {
-    Sha256::digest(bytes).iter().map(|byte| format!("{byte:02x}")).collect()
+/// What the arguments say about how it is made.
+///
+/// # Errors
+/// [`InputError`] if there is no such template.
+pub(super) fn settings(args: &InputArgs) -> Result<Settings, InputError> {
+    let trials = match args.effort {
+        _ if args.time_limit.is_some() => u32::MAX,
+        EffortLevel::Quick => 1,
+        EffortLevel::Normal => 8,
+        EffortLevel::Thorough => 64,
+    };
+    let settings = Settings::new(template(&args.template)?).with_hubs(&args.hubs);
+    let effort = Effort { trials, seed: args.seed };
+    Ok(Settings { joint: args.joint, effort, ..settings })
 }
 
 /// Reads the structure that the arguments name.
@@ -119,59 +110,27 @@ pub(super) fn structure(args: &InputArgs) -> Result<Input, InputError> {
     let reading = Reading {
         units: args.units,
         axes: args.axes,
-        scale: args.scale.factor,
+        scale: args.scale.clone(),
         depth: args.depth,
-        fix: args.fix.as_ref(),
+        fix: args.fix.clone(),
     };
     read(named, &reading)
-}
-
-/// How a structure is read.
-pub(super) struct Reading<'a> {
-    /// Unit of a file that names none.
-    pub units: Option<Unit>,
-    /// Where node axes come from.
-    pub axes: AxisRule,
-    /// Of the model.
-    pub scale: f64,
-    /// Instead of the file's.
-    pub depth: Option<Depth>,
-    /// Instead of the file's.
-    pub fix: Option<&'a Fix>,
 }
 
 /// Reads an embedded structure or a file.
 ///
 /// # Errors
 /// [`InputError`] if there is none.
-pub(super) fn read(named: &str, args: &Reading) -> Result<Input, InputError> {
+pub(super) fn read(named: &str, reading: &Reading) -> Result<Input, InputError> {
     let path = Path::new(named);
-    let mut input = match examples::named(named) {
-        Some(example) if !path.is_file() => {
-            let mut draft = (example.draft)();
-            if let Some(axes) = args.axes.axes(&draft.positions, &draft.faces) {
-                draft.axes = axes;
-            }
-            let sha256 = sha256(format!("{draft:?}").as_bytes());
-            let file = named.to_owned();
-            let findings = units_ignored(args, &file);
-            Input { draft, file, sha256, lists_fins: true, findings }
-        }
+    match examples::named(named) {
+        Some(example) if !path.is_file() => Ok(Input::embedded(example, reading)),
         // A name without an ending can only have been meant as an embedded one.
         None if !path.exists() && path.extension().is_none() => {
-            return Err(unknown_structure(named));
+            Err(unknown_structure(named))
         }
-        _ => from_file(path, args)?,
-    };
-    input.draft = input.draft.scaled(args.scale);
-    if let Some(depth) = args.depth {
-        input.draft = input.draft.with_depth(depth.below, depth.above);
+        _ => from_file(path, reading),
     }
-    if let Some(fix) = args.fix {
-        let boundary = *fix == Fix::Boundary;
-        input.draft.fixed = (!boundary).then(|| nodes(fix, &input.draft));
-    }
-    Ok(input)
 }
 
 /// The error for a structure that is not there, with the nearest name that is.
@@ -181,43 +140,18 @@ pub(super) fn unknown_structure(found: &str) -> InputError {
     InputError::UnknownStructure { found: found.to_owned(), nearest }
 }
 
-fn units_ignored(args: &Reading, file: &str) -> Vec<Finding> {
-    let note = args.units.map(|_| InputNote::UnitsIgnored { file: file.to_owned() });
-    note.into_iter().map(Finding::from).collect()
-}
-
-fn from_file(path: &Path, args: &Reading) -> Result<Input, InputError> {
-    let file = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
-    let bad = |source| InputError::BadStructure { path: path.to_owned(), source };
+fn from_file(path: &Path, reading: &Reading) -> Result<Input, InputError> {
+    let file = path.file_name().unwrap_or_default().to_string_lossy();
     let ending = path.extension().unwrap_or_default().to_string_lossy().to_lowercase();
     let bytes = bytes(path, |path| match ending.as_str() {
         "json" | "obj" => Ok(()),
         _ => Err(InputError::UnknownFormat { path: path.to_owned() }),
     })?;
-    let sha256 = sha256(&bytes);
-    let unit = args.units.unwrap_or(Unit::Millimetre);
-    let (mut draft, notes, mut findings) = if ending == "json" {
-        let text = text(path, bytes)?;
-        if exchange::is_compas(&text) {
-            let (draft, notes) =
-                exchange::read_compas(&text, unit, args.axes).map_err(bad)?;
-            (draft, notes, Vec::new())
-        } else {
-            let (draft, notes) = read_json(&text, args.axes).map_err(bad)?;
-            (draft, notes, units_ignored(args, &file))
-        }
-    } else {
-        // Names and comments may be in any alphabet; what counts in an OBJ file is ASCII.
-        let text = String::from_utf8_lossy(&bytes);
-        let options = ObjOptions { unit, axes: args.axes };
-        let (draft, notes) = read_obj(&text, &options).map_err(bad)?;
-        (draft, notes, Vec::new())
+    let read = match ending.as_str() {
+        "json" => Input::json(&file, &text(path, bytes)?, reading),
+        _ => Input::obj(&file, &bytes, reading),
     };
-    if draft.name.trim().is_empty() {
-        draft.name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
-    }
-    findings.extend(notes.into_iter().map(Finding::from));
-    Ok(Input { draft, file, sha256, lists_fins: ending == "json", findings })
+    read.map_err(|source| InputError::BadStructure { path: path.to_owned(), source })
 }
 
 /// What is in a file that is there and may be read, without a byte order mark.
@@ -254,35 +188,6 @@ pub(super) fn bytes_of(path: &Path) -> Result<Vec<u8>, InputError> {
 /// The text of a file.
 pub(super) fn text_of(path: &Path) -> Result<String, InputError> {
     text(path, bytes(path, |_| Ok(()))?)
-}
-
-/// The nodes that a choice names.
-pub(super) fn nodes(fix: &Fix, draft: &Draft) -> Vec<usize> {
-    let count = draft.positions.len();
-    match fix {
-        Fix::None => Vec::new(),
-        Fix::Boundary => boundary(draft)
-            .into_iter()
-            .enumerate()
-            .filter_map(|(node, boundary)| boundary.then_some(node))
-            .collect(),
-        Fix::Nodes(nodes) => nodes.clone(),
-        Fix::Lowest => {
-            let height = |p: &Point3| p.z;
-            let all = || draft.positions.iter().map(height);
-            let low = all().fold(f64::INFINITY, f64::min);
-            let high = all().fold(f64::NEG_INFINITY, f64::max);
-            let limit = low + SAME_HEIGHT * (high - low);
-            (0..count).filter(|&k| draft.positions[k].z <= limit).collect()
-        }
-    }
-}
-
-/// Whether each node is on the boundary; of a mesh whose faces name nodes that are not there,
-/// which is refused later, none is.
-fn boundary(draft: &Draft) -> Vec<bool> {
-    Mesh::new(draft.positions.len(), &draft.faces)
-        .map_or_else(|_| Vec::new(), |mesh| mesh.boundary_nodes())
 }
 
 /// The template of this name, or from this file.

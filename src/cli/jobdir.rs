@@ -1,18 +1,11 @@
 //! Job directories: written whole or not at all.
 
+use crate::export::File;
 use miette::Diagnostic;
 use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 use thiserror::Error;
-
-/// A file of a job.
-pub(super) struct JobFile {
-    /// Path inside the job directory, with `/`.
-    pub path: String,
-    /// What is in it.
-    pub bytes: Vec<u8>,
-}
 
 /// Why a job directory could not be written.
 #[derive(Debug, Error, Diagnostic)]
@@ -41,7 +34,7 @@ pub(super) enum JobDirError {
 ///
 /// # Errors
 /// [`JobDirError`]; then the place is as it was.
-pub(super) fn write(dir: &Path, files: &[JobFile]) -> Result<(), JobDirError> {
+pub(super) fn write(dir: &Path, files: &[File]) -> Result<(), JobDirError> {
     may_be_written(dir)?;
     let name = dir.file_name().unwrap_or_default().to_string_lossy().into_owned();
     let beside = |suffix: &str| dir.with_file_name(format!(".{name}.{suffix}"));
@@ -94,13 +87,13 @@ fn is_layout(dir: &Path) -> bool {
         .is_ok_and(|layout| layout["format"] == "finwright-layout")
 }
 
-fn write_files(new: &Path, files: &[JobFile]) -> io::Result<()> {
-    for file in files {
-        let path = new.join(&file.path);
+fn write_files(new: &Path, files: &[File]) -> io::Result<()> {
+    for (path, bytes) in files {
+        let path = new.join(path);
         if let Some(folder) = path.parent() {
             fs::create_dir_all(folder)?;
         }
-        fs::write(&path, &file.bytes)?;
+        fs::write(&path, bytes)?;
     }
     Ok(())
 }
@@ -129,12 +122,9 @@ fn swap(dir: &Path, new: &Path, old: &Path) -> io::Result<()> {
 mod tests {
     use super::*;
 
-    fn job(text: &str) -> [JobFile; 2] {
+    fn job(text: &str) -> [File; 2] {
         let manifest = br#"{"format":"finwright-job"}"#.to_vec();
-        [
-            JobFile { path: "job.json".into(), bytes: manifest },
-            JobFile { path: "sheets/a.svg".into(), bytes: text.into() },
-        ]
+        [("job.json".into(), manifest), ("sheets/a.svg".into(), text.into())]
     }
 
     #[test]

@@ -1,22 +1,24 @@
 //! The command: what was typed, what is read and written, what is said.
 
 mod advise;
-mod args;
+mod check;
+mod console;
 mod coupon;
 mod embedded;
+mod flags;
 mod input;
 mod jobdir;
-mod joint;
+mod make;
 mod nest;
 mod nest_drawing;
 mod nest_input;
 mod nest_progress;
+mod outcome;
 mod picture;
 mod planarise;
 mod rigidity;
 mod run;
-mod show;
 mod verify;
 
-pub use args::Cli;
+pub use flags::Cli;
 pub use run::run;

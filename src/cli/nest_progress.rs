@@ -1,7 +1,7 @@
 //! What is seen of a nest while it is searched: how many sheets, how full, and a picture.
 
+use crate::cli::console::Terminal;
 use crate::cli::nest_input::Order;
-use crate::cli::show::Terminal;
 use crate::export::{self, PngLook};
 use crate::geometry::Vector2;
 use crate::nest::{Layout, Shape, Stock};
@@ -64,6 +64,10 @@ impl Watch for Progress {
 
     fn stopped(&self) -> bool {
         false
+    }
+
+    fn threads(&self) -> usize {
+        self.terminal.threads()
     }
 
     fn enough(&self) -> bool {

@@ -1,42 +1,36 @@
-//! `finwright planarise`, and planarising on the way to other commands.
+//! `finwright planarise`: planar fins from any mesh.
 
-mod args;
-
-use crate::cli::args::InputArgs;
-use crate::cli::input::{self, Input, InputError, Reading};
+use crate::cli::console::{Console, Terminal};
+use crate::cli::flags::planarise::PlanariseArgs;
+use crate::cli::input::{self, InputError};
 use crate::cli::jobdir::JobDirError;
-use crate::cli::run::{End, Failure, print};
-use crate::cli::show::{Terminal, Voice};
+use crate::cli::outcome::{End, Failure, print};
 use crate::design::planarise::{
-    Options, PictureError, Planarised, Step, Stopped, picture, planarise,
-    planarised_if_needed, smoothed_axes,
+    Options, PictureError, PlanariseError, Planarised, Step, picture, planarise,
+    smoothed_axes,
 };
-use crate::diagnostic::{Finding, passes};
-use crate::job::Interrupted;
+use crate::diagnostic::Finding;
+use crate::job::{AXES_FROM_NORMALS, Fix, Input, Reading};
 use crate::structure::{Structure, exchange, write_json, write_obj};
 use crate::tolerance::Tolerance;
 use crate::units::Unit;
-use crate::watch::Watch;
-pub(super) use args::PLANARISE_HELP;
-use args::options;
-pub(super) use args::{PlanariseArgs, PlanariseWhen};
 use std::path::Path;
 
 /// Runs the command.
-pub(super) fn run(args: &PlanariseArgs, voice: Voice) -> Result<End, Failure> {
+pub(super) fn run(args: &PlanariseArgs, console: Console) -> Result<End, Failure> {
     let mut input = read(args)?;
     let options = options(args, &input);
     let given = input.draft.clone();
     let mut findings = std::mem::take(&mut input.findings);
-    let mut terminal = Terminal::new(voice, None);
+    let mut terminal = Terminal::new(console, None);
     let result = planarise(input.draft, &options, &mut terminal);
     terminal.finish();
     let result = match result {
         Ok(result) => result,
-        Err(Stopped::Interrupted) => return Err(Failure::Interrupted),
-        Err(Stopped::Refused(more)) => {
+        Err(PlanariseError::Stopped(stopped)) => return Err(stopped.into()),
+        Err(PlanariseError::Refused(more)) => {
             findings.extend(more);
-            voice.findings(&findings);
+            console.findings(&findings);
             if args.json {
                 print(&format!("{}\n", serde_json::json!({"findings": findings})));
             }
@@ -52,25 +46,22 @@ pub(super) fn run(args: &PlanariseArgs, voice: Voice) -> Result<End, Failure> {
             None
         }
     };
-    voice.findings(&findings);
+    console.findings(&findings);
     let Some(structure) = structure else { return Ok(End::Refused) };
     write(args, &given, &result, &structure)?;
     if args.json {
         print(&format!("{}\n", report(&result, &findings)));
     }
-    voice.say(&summary(&result));
-    Ok(if passes(&findings) { End::Done } else { End::Refused })
+    console.say(&summary(&result));
+    Ok(End::of(&findings))
 }
-
-const AXES_FROM_NORMALS: &str = "structure::axes_from_normals";
 
 fn read(args: &PlanariseArgs) -> Result<Input, Failure> {
     let reading = Reading {
         units: args.units,
         axes: args.axes,
-        scale: 1.0,
-        depth: None,
-        fix: args.fix.as_ref(),
+        fix: args.fix.clone(),
+        ..Reading::default()
     };
     let mut input = input::read(&args.mesh, &reading)?;
     let bad =
@@ -194,32 +185,19 @@ fn summary(result: &Planarised) -> String {
     )
 }
 
-/// Makes the fins of an input plane if they are not, and says so.
-///
-/// # Errors
-/// [`Interrupted`] if the watch stopped the work.
-pub(super) fn when_needed(
-    input: &mut Input,
-    args: &InputArgs,
-    worst: f64,
-    watch: &mut dyn Watch,
-) -> Result<(), Interrupted> {
-    if args.planarise == PlanariseWhen::Never {
-        return Ok(());
-    }
-    // A structure in our own format says what its fins are; a mesh does not.
-    let boundary_fins = input.lists_fins;
-    let options = Options { target: worst, boundary_fins, ..Options::default() };
-    let draft = std::mem::take(&mut input.draft);
-    match planarised_if_needed(draft, &options, watch) {
-        Ok((draft, findings)) => {
-            if findings.iter().any(|finding| finding.code == "design::planarised") {
-                input.findings.retain(|finding| finding.code != AXES_FROM_NORMALS);
-            }
-            input.draft = draft;
-            input.findings.extend(findings);
-            Ok(())
-        }
-        Err(_) => Err(Interrupted),
+/// What was chosen.
+fn options(args: &PlanariseArgs, input: &Input) -> Options {
+    let held = |fix: &Option<Fix>| {
+        fix.as_ref().map_or_else(Vec::new, |fix| fix.nodes(&input.draft))
+    };
+    Options {
+        boundary_fins: args.boundary_fins,
+        fixed_nodes: held(&args.hold),
+        fixed_axes: held(&args.hold_axes),
+        weights: args.weights.0.clone(),
+        target: args.target / 100.0,
+        tilt_limit: args.tilt_limit.to_radians(),
+        move_limit: args.move_limit,
+        steps: args.steps,
     }
 }

@@ -1,33 +1,13 @@
 //! `verify`: a job directory read back and proved.
 
-use crate::cli::jobdir::JobFile;
-use crate::cli::run::{End, Failure, print};
-use crate::cli::show::Voice;
-use crate::diagnostic::{Finding, passes};
-use crate::proof::{JobFiles, Proof, ProofError, ProofFinding, Spot, prove};
-use clap::Args;
+use crate::cli::console::Console;
+use crate::cli::flags::verify::VerifyArgs;
+use crate::cli::outcome::{End, Failure, print};
+use crate::diagnostic::passes;
+use crate::proof::{JobFiles, Proof, ProofError, prove};
 use miette::Diagnostic;
-use serde_json::Value;
 use std::path::{Path, PathBuf};
 use thiserror::Error;
-
-/// Arguments of `verify`.
-#[derive(Debug, Args)]
-pub struct VerifyArgs {
-    /// Folder that `finwright make` wrote, its files edited or not
-    #[arg(value_name = "JOBDIR")]
-    pub job: PathBuf,
-
-    /// Print one JSON object on standard output
-    #[arg(long)]
-    pub json: bool,
-}
-
-/// Help after the options.
-pub(super) const HELP: &str = "\
-Example:
-  finwright make dome && finwright verify out/dome
-      reads the DXF, SVG and PDF files back, folds the parts and compares with the structure";
 
 /// Why a directory could not be verified.
 #[derive(Debug, Error, Diagnostic)]
@@ -46,14 +26,14 @@ pub(super) enum VerifyError {
 ///
 /// # Errors
 /// [`Failure`] if there is no job.
-pub(super) fn run(args: &VerifyArgs, voice: Voice) -> Result<End, Failure> {
-    let proof = verify(&args.job)?;
-    voice.findings(&proof.findings);
+pub(super) fn run(args: &VerifyArgs, console: Console) -> Result<End, Failure> {
+    let proof = verify(&args.job).map_err(Failure::of)?;
+    console.findings(&proof.findings);
     if args.json {
         print(&format!("{}\n", proof.report()));
     }
-    voice.say(&summary(&proof));
-    Ok(if passes(&proof.findings) { End::Done } else { End::Refused })
+    console.say(&summary(&proof));
+    Ok(End::of(&proof.findings))
 }
 
 /// Reads a job directory and proves it.
@@ -88,35 +68,6 @@ fn verify(dir: &Path) -> Result<Proof, VerifyError> {
     }
     let path = dir.to_owned();
     prove(&files).map_err(|source| VerifyError::NoProof { path, source })
-}
-
-/// Proves files before they are written; the worst figures and what was found go into
-/// their manifest.
-pub(super) fn prove_before_writing(
-    files: &mut [JobFile],
-    manifest: &mut Value,
-) -> (Option<Proof>, Vec<Finding>) {
-    let read = files.iter().filter(|file| !file.path.ends_with(".png"));
-    let all = read.map(|file| (file.path.clone(), file.bytes.clone()));
-    let (proof, findings) = match prove(&all.collect()) {
-        Ok(proof) => {
-            manifest["proof"] = proof.summary();
-            let findings = proof.findings.clone();
-            (Some(proof), findings)
-        }
-        Err(error) => {
-            let (spot, reason) = (Spot::file("job.json"), error.to_string());
-            (None, vec![ProofFinding::Unreadable { spot, reason }.into()])
-        }
-    };
-    if let Some(listed) = manifest["findings"].as_array_mut() {
-        listed.extend(findings.iter().map(|finding| serde_json::json!(finding)));
-    }
-    if let Some(file) = files.iter_mut().find(|file| file.path == "job.json") {
-        let pretty = serde_json::to_string_pretty(manifest).unwrap_or_default() + "\n";
-        file.bytes = pretty.into_bytes();
-    }
-    (proof, findings)
 }
 
 /// What is said at the end.

@@ -27,50 +27,62 @@ use crate::gate::Approved;
 use crate::geometry::Point2;
 use crate::lettering::letter;
 use crate::sheets::Sheet;
+use std::panic::resume_unwind;
 
 /// A file by its path inside the job directory.
 pub type File = (String, Vec<u8>);
 
 /// All files of approved sheets: DXF, SVG and a picture of each, and one PDF of all.
-pub fn cut_files(approved: &Approved<&Vec<Sheet>>) -> Vec<File> {
+///
+/// # Errors
+/// [`PngError`] if a sheet cannot be drawn.
+pub fn cut_files(
+    approved: &Approved<&Vec<Sheet>>,
+    threads: usize,
+) -> Result<Vec<File>, PngError> {
     let sheets = approved.get();
-    let mut files = side_by_side(sheets, |sheet| {
+    let mut files = side_by_side(sheets, threads, |sheet| {
         let path = |ending: &str| format!("sheets/{}.{ending}", sheet.id);
-        let picture = png(sheet, &PngLook::default()).ok();
+        let picture = png(sheet, &PngLook::default())?;
         let drawings = [(path("dxf"), dxf(sheet)), (path("svg"), svg(sheet))];
-        drawings.into_iter().chain(picture.map(|bytes| (path("png"), bytes))).collect()
-    });
+        Ok(drawings.into_iter().chain([(path("png"), picture)]).collect())
+    })?;
     files.push(("sheets/sheets.pdf".to_owned(), pdf(sheets)));
-    files
+    Ok(files)
 }
 
 /// Pictures of sheets that were refused, stamped across.
-pub fn stamped_previews(sheets: &[Sheet]) -> Vec<File> {
-    side_by_side(sheets, |sheet| {
+///
+/// # Errors
+/// [`PngError`] if a sheet cannot be drawn.
+pub fn stamped_previews(sheets: &[Sheet], threads: usize) -> Result<Vec<File>, PngError> {
+    side_by_side(sheets, threads, |sheet| {
         let stamp = stamp(sheet, "NOT FOR CUTTING");
         let look = PngLook { stamp: &stamp, ..PngLook::default() };
-        let picture = png(sheet, &look).ok();
-        let file = picture.map(|bytes| (format!("preview/{}.png", sheet.id), bytes));
-        file.into_iter().collect()
+        Ok(vec![(format!("preview/{}.png", sheet.id), png(sheet, &look)?)])
     })
 }
 
-/// The files of all sheets in order, made on all cores: pictures take long.
+/// The files of all sheets in order, made on so many threads: pictures take long.
 fn side_by_side(
     sheets: &[Sheet],
-    files: impl Fn(&Sheet) -> Vec<File> + Sync,
-) -> Vec<File> {
-    let cores = std::thread::available_parallelism().map_or(1, usize::from);
+    threads: usize,
+    files: impl Fn(&Sheet) -> Result<Vec<File>, PngError> + Sync,
+) -> Result<Vec<File>, PngError> {
     let mut all = Vec::new();
-    for batch in sheets.chunks(cores) {
-        std::thread::scope(|scope| {
-            let work = batch.iter().map(|sheet| scope.spawn(|| files(sheet)));
-            let work: Vec<_> = work.collect();
-            // A thread that panicked has no files; its panic was printed.
-            all.extend(work.into_iter().flat_map(|work| work.join().unwrap_or_default()));
-        });
+    for batch in sheets.chunks(threads.max(1)) {
+        std::thread::scope(|scope| -> Result<(), PngError> {
+            // The first of a batch is made here: one thread needs no other.
+            let others = batch[1..].iter().map(|sheet| scope.spawn(|| files(sheet)));
+            let others: Vec<_> = others.collect();
+            all.extend(files(&batch[0])?);
+            for other in others {
+                all.extend(other.join().unwrap_or_else(|panic| resume_unwind(panic))?);
+            }
+            Ok(())
+        })?;
     }
-    all
+    Ok(all)
 }
 
 /// Letters from the lower left to the upper right corner of a sheet.

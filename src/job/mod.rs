@@ -1,294 +1,267 @@
-//! The stages in order and nothing else.
+//! The whole way: from a specification to everything that a job directory holds, as named
+//! bytes.
+//!
+//! [`make`] takes a structure, [`coupon`] a template; both go through the gate, write the
+//! files for the laser and prove them. Whoever calls puts the files where they belong and
+//! says what was found.
 
-mod judge;
+mod advice;
+mod error;
+mod input;
+mod replacement;
 
-pub use judge::{criteria, model, verdict, with_remedies};
+pub use advice::{Advice, Question, Tried, smallest_scale};
+pub use error::{JobError, NoSuchPart};
+pub use input::{Depth, Fix, Input, Origin, Reading, Scale};
 
-use crate::diagnostic::Finding;
-use crate::gate::{self, Approved, Judged, Shut};
-use crate::geometry::{Contour, Point2};
-use crate::joint::Joint;
-use crate::nest::{self, Effort, Layout, NestError, Shape, Stock};
-use crate::parts::{self, Body, ConnectorFinding, Making, Part, Step};
-use crate::rigidity::{Fingerprint, Stopped, Verdict};
-pub use crate::setting::fit;
-use crate::setting::{frame, marking, stock, tolerance, turns};
-use crate::sheets::{self, Kerf, Laying, Sheet};
-use crate::structure::{Draft, Structure};
-use crate::template::Template;
-use crate::tolerance::ARC_SAGITTA_MM;
-use crate::vendor::{self, Profile, Request, VendorSheets};
-use crate::watch::Watch;
-use judge::{has_hub, judged};
+use crate::design::planarise::{Options, planarised_if_needed};
+use crate::diagnostic::{Finding, passes};
+use crate::export::{self, File};
+use crate::fabrication::{self, Fabrication, fabricate};
+use crate::gate::approve_loose;
+use crate::proof::{Proof, ProofFinding, Spot, prove};
+use crate::report::{self, Page, Source};
+use crate::settings::Settings;
+use crate::structure::write_json;
+use crate::vendor;
+use crate::watch::{Stopped, Watch};
+use serde_json::{Value, json};
 
-/// What a job is made from.
-pub struct Order<'a> {
-    /// The structure as read, mm at model scale.
-    pub draft: Draft,
-    /// Material, stock and joint.
-    pub template: &'a Template,
-    /// How fins are joined.
-    pub joint: Joint,
-    /// How hard to nest.
-    pub effort: Effort,
-    /// Why the structure may be flexible.
-    pub accepted_flexible: Option<String>,
-}
-
-/// How far a job came.
-#[derive(Debug, Clone, PartialEq, Default)]
-pub struct Job {
-    /// Everything found on the way.
-    pub findings: Vec<Finding>,
-    /// Names of the parts that are made again; empty if all are made.
+/// What is to be made.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Specification {
+    /// The structure.
+    pub input: Input,
+    /// What it is made with.
+    pub settings: Settings,
+    /// Whether fins that are not plane enough for the template are made so.
+    pub planarise: bool,
+    /// Whether fins on rods get hubs on as many nodes as it takes to be rigid.
+    pub apply_remedies: bool,
+    /// Names of the parts to make again; empty for all.
     pub only: Vec<String>,
-    /// Why the structure may be flexible, as ordered.
-    pub accepted_flexible: Option<String>,
-    /// The structure as built; `None` if the draft was none.
-    pub structure: Option<Structure>,
-    /// Rigid or flexible.
-    pub verdict: Option<Verdict>,
-    /// The parts in the order of assembly.
-    pub parts: Vec<Part>,
-    /// How they go together.
-    pub steps: Vec<Step>,
-    /// Stock that the layout chose from.
-    pub stock: Vec<Stock>,
-    /// Where parts lie.
-    pub layout: Layout,
-    /// What the laser does.
-    pub sheets: Vec<Sheet>,
-    /// The same for the service or machine that the template names.
-    pub vendor: Option<VendorSheets>,
 }
 
-/// The work was stopped from outside.
+/// How a job ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Interrupted;
+pub enum End {
+    /// It may be cut.
+    Approved,
+    /// Something forbids it; there are stamped pictures instead of files for the laser.
+    Refused,
+}
 
-/// Takes a structure through all stages, as far as they go.
+/// Everything there is of a job.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Job {
+    /// From the structure to sheets.
+    pub fabrication: Fabrication,
+    /// How it ended.
+    pub end: End,
+    /// What the files for the laser prove, if there are any and they could be read.
+    pub proof: Option<Proof>,
+    /// Found in those files.
+    pub proof_findings: Vec<Finding>,
+    /// `job.json`.
+    pub manifest: Value,
+    /// The files of the job directory; none if there is no structure to make parts of.
+    pub files: Vec<File>,
+}
+
+/// Code of what is said of axes that were not in the file; no longer true once fins were
+/// made plane.
+pub const AXES_FROM_NORMALS: &str = "structure::axes_from_normals";
+
+/// Takes a structure as far as sheets: whatever can be found out about it.
 ///
 /// # Errors
-/// [`Interrupted`] if the watch stopped the work.
-pub fn run(order: Order, watch: &mut dyn Watch) -> Result<Job, Interrupted> {
-    let template = order.template;
-    let accepted_flexible = order.accepted_flexible;
-    let mut job = Job { stock: stock(template), accepted_flexible, ..Job::default() };
-    watch.progress("structure", 0, 1);
-    let structure = match Structure::new(order.draft, &tolerance(template)) {
-        Ok((structure, findings)) => {
-            job.findings = findings;
-            structure
+/// [`Stopped`] if the watch stopped the work.
+pub fn check(
+    specification: Specification,
+    watch: &mut dyn Watch,
+) -> Result<Fabrication, Stopped> {
+    let Specification { input, mut settings, planarise, apply_remedies, .. } =
+        specification;
+    let Input { mut draft, lists_fins, mut findings, .. } = input;
+    if planarise {
+        let target = settings.tolerance.planarity_warn;
+        // A structure in our own format says what its fins are; a mesh does not.
+        let options = Options { target, boundary_fins: lists_fins, ..Options::default() };
+        let (planar, found) = planarised_if_needed(draft, &options, watch)?;
+        if found.iter().any(|finding| finding.code == "design::planarised") {
+            findings.retain(|finding| finding.code != AXES_FROM_NORMALS);
         }
-        Err(refused) => return Ok(Job { findings: refused.findings, ..job }),
-    };
-    if let Some(finding) = parts::too_small(&structure, &fit(template)) {
-        job.findings.push(finding.into());
-        return Ok(Job { structure: Some(structure), ..job });
+        draft = planar;
+        findings.extend(found);
     }
-    job.findings.extend(no_such_hub(&structure, template).map(Finding::from));
-    job.judge(&structure, order.joint, template, watch)?;
-    watch.progress("parts", 0, 1);
-    let name = structure.name().to_owned();
-    job.cut(structure, order.joint, template);
-    if watch.stopped() {
-        return Err(Interrupted);
+    if apply_remedies {
+        settings = fabrication::with_remedies(&draft, settings, watch)?;
     }
-    on_sheets(job, template, name, &order.effort, watch)
+    let mut fabrication = fabricate(draft, settings, watch)?;
+    fabrication.findings.splice(0..0, findings);
+    Ok(fabrication)
 }
 
-/// Takes the coupon of a template through the stages: pieces that tell kerf and clearance.
+/// Makes a structure into files.
 ///
 /// # Errors
-/// [`Interrupted`] if the watch stopped the work.
-pub fn coupon(
-    template: &Template,
-    effort: &Effort,
+/// [`JobError`] if the watch stopped the work, if one of the parts to make again is not
+/// there, or if a picture cannot be drawn. What forbids cutting is no error but a finding.
+pub fn make(
+    mut specification: Specification,
     watch: &mut dyn Watch,
-) -> Result<Job, Interrupted> {
-    let thickness = template.material.thickness_mm;
-    let radii = [template.bend.model, template.bend.long_term].map(|r| r * thickness);
-    let parts = parts::coupon(&fit(template), radii);
-    let job = Job { stock: stock(template), parts, ..Job::default() };
-    on_sheets(job, template, "coupon".to_owned(), effort, watch)
-}
-
-/// Nests the parts of a job and says what the laser does.
-pub(crate) fn on_sheets(
-    mut job: Job,
-    template: &Template,
-    name: String,
-    effort: &Effort,
-    watch: &mut dyn Watch,
-) -> Result<Job, Interrupted> {
-    let kerf = Kerf::from_width_mm(template.material.kerf_mm);
-    lay(&mut job, kerf, template, effort, watch)?;
-    watch.progress("sheets", 0, 1);
-    let frame = frame(template, name, job.accepted_flexible.as_deref());
-    job.sheets = sheets::sheets(&Laying {
-        parts: &job.parts,
-        layout: &job.layout,
-        stock: &job.stock,
-        kerf,
-        frame: template.output.frame.then_some(&frame),
-    });
-    job.lay_for_vendor(template);
+) -> Result<Job, JobError> {
+    let origin = specification.input.origin.clone();
+    let only = std::mem::take(&mut specification.only);
+    let mut fabrication = check(specification, watch)?;
+    if !only.is_empty() && !fabrication.parts.is_empty() {
+        let only = replacement::named(&fabrication, &only)?;
+        replacement::keep(&mut fabrication, only, watch)?;
+    }
+    watch.progress("export", 0, 1);
+    let cut = match fabrication.approved() {
+        Ok(sheets) if !sheets.get().is_empty() => {
+            let vendor = fabrication.approved_vendor();
+            let vendor = vendor.iter().flat_map(vendor::files);
+            Some(
+                export::cut_files(&sheets, watch.threads())?
+                    .into_iter()
+                    .chain(vendor)
+                    .collect(),
+            )
+        }
+        _ => None,
+    };
+    let mut job = written(fabrication, &origin, cut, watch.threads())?;
+    if job.fabrication.structure.is_none() {
+        job.files.clear();
+    } else {
+        job.add_pages(&origin);
+    }
+    watch.unless_stopped()?;
     Ok(job)
 }
 
-/// A node that should get a hub and is not there.
-fn no_such_hub(structure: &Structure, template: &Template) -> Option<ConnectorFinding> {
-    let count = structure.nodes().len();
-    let node = template.joint.hub_nodes.iter().copied().find(|&node| node >= count)?;
-    Some(ConnectorFinding::NoSuchNode { node, count })
+/// Makes the coupon of a template into files: pieces that tell kerf and clearance.
+///
+/// # Errors
+/// As [`make`].
+pub fn coupon(settings: Settings, watch: &mut dyn Watch) -> Result<Job, JobError> {
+    let sha256 = settings.template.sha256();
+    let origin = Origin { name: "coupon".to_owned(), sha256, scale: "1:1".to_owned() };
+    let fabrication = fabrication::coupon(settings, watch)?;
+    let findings = &fabrication.findings;
+    let cut = match approve_loose(&fabrication.sheets, findings) {
+        Some(sheets) => {
+            let vendor = fabrication.vendor.as_ref();
+            let vendor = vendor.and_then(|vendor| approve_loose(vendor, findings));
+            let vendor = vendor.iter().flat_map(vendor::files);
+            Some(
+                export::cut_files(&sheets, watch.threads())?
+                    .into_iter()
+                    .chain(vendor)
+                    .collect(),
+            )
+        }
+        None => None,
+    };
+    written(fabrication, &origin, cut, watch.threads())
 }
 
-/// Finds the parts their places, or says why there are none.
-fn lay(
-    job: &mut Job,
-    kerf: Kerf,
-    template: &Template,
-    effort: &Effort,
-    watch: &mut dyn Watch,
-) -> Result<(), Interrupted> {
-    let copies = job.parts.iter().enumerate();
-    let copies: Vec<usize> =
-        copies.flat_map(|(k, part)| std::iter::repeat_n(k, part.quantity)).collect();
-    let shapes: Vec<Shape> =
-        copies.iter().map(|&k| shape(&job.parts[k], kerf, template)).collect();
-    // Parts that cross themselves cannot lie soundly, and that was said of them already.
-    let crossing =
-        job.findings.iter().any(|found| found.code == "parts::outline_crosses_itself");
-    match nest::nest(&shapes, &job.stock, effort, watch) {
-        Ok(layout) => job.layout = layout,
-        Err(NestError::Stopped) => return Err(Interrupted),
-        Err(NestError::Unsound { .. }) if crossing => {}
-        Err(error) => job.findings.push(error.into()),
+/// A job with its lists and, if they can be proved, its files for the laser; else with
+/// stamped pictures.
+fn written(
+    fabrication: Fabrication,
+    origin: &Origin,
+    cut: Option<Vec<File>>,
+    threads: usize,
+) -> Result<Job, JobError> {
+    let sha256 = fabrication.settings.template.sha256();
+    let mut manifest =
+        report::manifest(&fabrication, &source(&fabrication, origin, &sha256));
+    let mut files = lists(&fabrication, &manifest);
+    let (mut end, mut proof, mut proof_findings) = (End::Refused, None, Vec::new());
+    if let Some(cut) = cut {
+        let kept = files.len();
+        files.extend(cut);
+        (proof, proof_findings) = proved(&files, &mut manifest);
+        files[0] = job_json(&manifest);
+        if passes(&proof_findings) {
+            end = End::Approved;
+        } else {
+            files.truncate(kept);
+        }
     }
-    // From here on a placement means a part; which copy it is, nobody can tell.
-    let placements = job.layout.sheets.iter_mut().flat_map(|sheet| &mut sheet.placements);
-    placements.for_each(|placement| placement.shape = copies[placement.shape]);
-    Ok(())
+    if end == End::Refused {
+        files.extend(export::stamped_previews(&fabrication.sheets, threads)?);
+    }
+    Ok(Job { fabrication, end, proof, proof_findings, manifest, files })
+}
+
+fn job_json(manifest: &Value) -> File {
+    ("job.json".to_owned(), format!("{manifest:#}\n").into_bytes())
+}
+
+/// The lists that stand in every job directory, the manifest first.
+fn lists(fabrication: &Fabrication, manifest: &Value) -> Vec<File> {
+    let bill = report::bill(fabrication, &fabrication.settings.template.material.name);
+    let mut files = vec![job_json(manifest), ("parts.csv".to_owned(), bill.into_bytes())];
+    let structure = fabrication.structure.as_ref().map(write_json);
+    files.extend(structure.map(|text| ("structure.json".to_owned(), text.into_bytes())));
+    files
+}
+
+/// What files prove before they are written; the worst figures and what was found go into
+/// their manifest.
+fn proved(files: &[File], manifest: &mut Value) -> (Option<Proof>, Vec<Finding>) {
+    let read = files.iter().filter(|(path, _)| !path.ends_with(".png"));
+    let (proof, findings) = match prove(&read.cloned().collect()) {
+        Ok(proof) => {
+            manifest["proof"] = proof.summary();
+            let findings = proof.findings.clone();
+            (Some(proof), findings)
+        }
+        Err(error) => {
+            let (spot, reason) = (Spot::file("job.json"), error.to_string());
+            (None, vec![ProofFinding::Unreadable { spot, reason }.into()])
+        }
+    };
+    if let Some(listed) = manifest["findings"].as_array_mut() {
+        listed.extend(findings.iter().map(|finding| json!(finding)));
+    }
+    (proof, findings)
+}
+
+fn source<'a>(
+    fabrication: &'a Fabrication,
+    origin: &'a Origin,
+    template_sha256: &'a str,
+) -> Source<'a> {
+    let settings = &fabrication.settings;
+    Source {
+        input: &origin.name,
+        input_sha256: &origin.sha256,
+        template: &settings.template,
+        template_sha256,
+        seed: settings.effort.seed,
+        scale: &origin.scale,
+        joint: settings.joint,
+    }
 }
 
 impl Job {
-    /// Whether it has a part of a kind.
-    pub fn has(&self, is: impl Fn(&Body) -> bool) -> bool {
-        self.parts.iter().any(|part| is(&part.body))
+    /// Adds the report and, to what may be cut as a whole, the guide of assembly.
+    fn add_pages(&mut self, origin: &Origin) {
+        let job = &self.fabrication;
+        let sha256 = job.settings.template.sha256();
+        let source = source(job, origin, &sha256);
+        let is_approved = self.end == End::Approved;
+        let (manifest, proof) = (&self.manifest, self.proof.as_ref());
+        let page = Page { job, source: &source, manifest, proof, is_approved };
+        let page = report::page(&page).into_bytes();
+        let whole = is_approved && job.only.is_empty();
+        let guide = whole.then(|| report::guide(job, &source)).flatten();
+        self.files.push(("report.html".to_owned(), page));
+        self.files.extend(guide.map(|pdf| ("assembly.pdf".to_owned(), pdf)));
     }
-
-    /// Makes the sheets for the service that the template names, if it names one.
-    fn lay_for_vendor(&mut self, template: &Template) {
-        let output = &template.output;
-        let Some(profile) = Profile::named(&output.profile) else { return };
-        let per_part = output.one_file_per == "part";
-        if self.sheets.is_empty() || profile.is_generic() && !per_part {
-            return;
-        }
-        let request = Request {
-            profile,
-            per_part,
-            parts: &self.parts,
-            layout: &self.layout,
-            stock: &self.stock,
-            kerf_mm: template.material.kerf_mm,
-        };
-        let vendor = vendor::vendor_sheets(&request);
-        let found = vendor::check(&vendor, &request);
-        self.findings.extend(found.into_iter().map(Finding::from));
-        self.vendor = Some(vendor);
-    }
-
-    /// Makes the structure into parts.
-    fn cut(&mut self, structure: Structure, joint: Joint, template: &Template) {
-        let (fit, turns) = (fit(template), turns(template));
-        let kerf = Kerf::from_width_mm(template.material.kerf_mm);
-        let stock = &self.stock;
-        let fits = |outline: &[Point2]| {
-            let drawn = kerf.compensated(&Contour::polygon(outline.iter().copied()));
-            let drawn = drawn.flattened(ARC_SAGITTA_MM);
-            stock.iter().any(|sheet| nest::fits(&drawn, &turns, sheet).is_some())
-        };
-        let making = Making { fit: &fit, marking: marking(template), fits: &fits };
-        let made = match joint {
-            Joint::Lap => parts::strips(&structure, &template.joint.hub_nodes, &making),
-            Joint::Hinge | Joint::Hub => {
-                let is_hub = |node: usize| has_hub(joint, template, node);
-                parts::connected(&structure, &is_hub, &making)
-            }
-        };
-        self.findings.extend(made.findings);
-        let tight = parts::tight_insertions(&made.structure, &made.parts, &fit);
-        self.findings.extend(tight.into_iter().map(Finding::from));
-        self.structure = Some(made.structure);
-        (self.parts, self.steps) = (made.parts, made.steps);
-    }
-
-    /// The sheets, if findings and verdict let them pass; the verdict must be about the
-    /// structure as it stands in the job, with this joint and template.
-    ///
-    /// # Errors
-    /// [`Shut`] says why not.
-    pub fn approved(
-        &self,
-        joint: Joint,
-        template: &Template,
-    ) -> Result<Approved<&Vec<Sheet>>, Shut> {
-        self.pass(&self.sheets, joint, template)
-    }
-
-    /// The sheets for the vendor, if there are any and they pass.
-    pub fn approved_vendor(
-        &self,
-        joint: Joint,
-        template: &Template,
-    ) -> Option<Approved<&VendorSheets>> {
-        self.pass(self.vendor.as_ref()?, joint, template).ok()
-    }
-
-    fn pass<T>(
-        &self,
-        work: T,
-        joint: Joint,
-        template: &Template,
-    ) -> Result<Approved<T>, Shut> {
-        let structure = self.structure.as_ref().ok_or(Shut::Findings)?;
-        let fingerprint = Fingerprint::of(structure, joint, &template.source);
-        let judged = Judged {
-            fingerprint: &fingerprint,
-            verdict: self.verdict.as_ref(),
-            accepted: self.accepted_flexible.as_deref(),
-        };
-        gate::approve(work, &self.findings, judged)
-    }
-
-    /// Judges the structure and notes what forbids cutting.
-    fn judge(
-        &mut self,
-        structure: &Structure,
-        joint: Joint,
-        template: &Template,
-        watch: &mut dyn Watch,
-    ) -> Result<(), Interrupted> {
-        match verdict(structure, joint, (template, None), watch) {
-            Ok(Err(Stopped)) => return Err(Interrupted),
-            Ok(Ok(verdict)) => {
-                let accepted = self.accepted_flexible.as_deref();
-                self.findings.extend(judged(&verdict, accepted));
-                self.verdict = Some(verdict);
-            }
-            Err(finding) => self.findings.push(finding.into()),
-        }
-        if watch.stopped() { Err(Interrupted) } else { Ok(()) }
-    }
-}
-
-/// A part as the nester sees it: the line that will be drawn.
-fn shape(part: &Part, kerf: Kerf, template: &Template) -> Shape {
-    let drawn = kerf.compensated(&part.region.outline);
-    let outline = drawn.enclosing_polygon(ARC_SAGITTA_MM);
-    let holes = part.region.holes.iter();
-    let hole = |hole| kerf.compensated(hole).flattened(ARC_SAGITTA_MM);
-    let holes = holes.map(hole).collect();
-    Shape { name: part.id.clone(), outline, holes, turns: turns(template), priority: 0 }
 }

@@ -2,6 +2,7 @@
 
 use crate::diagnostic::{Located, Place};
 use crate::nest::{Shape, Stock, turn};
+use crate::watch::Stopped;
 use miette::Diagnostic;
 use thiserror::Error;
 
@@ -66,7 +67,7 @@ pub enum NestError {
 
     #[error("the search was stopped")]
     #[diagnostic(code(nest::stopped), help("run it again and let it finish"))]
-    Stopped,
+    Stopped(#[from] Stopped),
 }
 
 impl NestError {
@@ -96,7 +97,7 @@ impl Located for NestError {
             Self::BadRemnant { .. }
             | Self::BadPlacement { .. }
             | Self::Unsound { .. }
-            | Self::Stopped => Place::default(),
+            | Self::Stopped(_) => Place::default(),
         }
     }
 }

@@ -146,8 +146,7 @@ pub fn nest(
     let found = search(shapes, stock, effort, watch)?;
     match found.unplaced.into_iter().next() {
         Some(error) => Err(error),
-        None if watch.stopped() => Err(NestError::Stopped),
-        None => Ok(found.layout),
+        None => Ok(watch.unless_stopped().map(|()| found.layout)?),
     }
 }
 

@@ -5,7 +5,7 @@
 use crate::nest::drop::Board;
 use crate::nest::random::Random;
 use crate::nest::{Effort, Layout, NestError, Shape, Stock, check, fits_any, odd, turn};
-use crate::watch::Watch;
+use crate::watch::{Stopped, Watch};
 
 /// Sheets that are still open for further parts.
 const OPEN_SHEETS: usize = 4;
@@ -28,7 +28,7 @@ pub(super) fn start(
     let first = order(shapes, &fitting, 0, effort.seed);
     let (cheap, rest) = odd::fill(shapes, stock, &cheap, first, effort.seed);
     let mut best: Option<(Vec<i32>, f64, Layout)> = None;
-    let mut failure = NestError::Stopped;
+    let mut failure = NestError::Stopped(Stopped);
     let orders =
         if shapes.len() > MANY_PARTS { 1 } else { effort.trials.clamp(1, ORDERS) };
     for trial in 0..orders {

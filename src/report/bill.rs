@@ -1,14 +1,14 @@
 //! `parts.csv`: the bill of parts.
 
+use crate::fabrication::Fabrication;
 use crate::geometry::Contour;
-use crate::job::Job;
 use crate::report::connectors::hardware;
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write;
 
 /// One line per part: what it is, how large, on which sheet, which nodes; then what is
 /// bought besides.
-pub fn bill(job: &Job, material: &str) -> String {
+pub fn bill(job: &Fabrication, material: &str) -> String {
     let mut sheets: BTreeMap<usize, BTreeSet<&str>> = BTreeMap::new();
     for (sheet, nested) in job.sheets.iter().zip(&job.layout.sheets) {
         for placement in &nested.placements {

@@ -1,7 +1,7 @@
 //! Which part, step and sheet each fin of a job belongs to, for those who draw it.
 
+use crate::fabrication::Fabrication;
 use crate::geometry::Point3;
-use crate::job::Job;
 use crate::parts::{Body, Copy, Part};
 use crate::structure::Structure;
 use std::collections::BTreeMap;
@@ -36,7 +36,7 @@ pub(super) fn plates(structure: &Structure, part: &Part) -> Vec<[Point3; 4]> {
 }
 
 /// The part of each fin of the structure, if it is on one.
-pub(super) fn parts(job: &Job) -> BTreeMap<[usize; 2], usize> {
+pub(super) fn parts(job: &Fabrication) -> BTreeMap<[usize; 2], usize> {
     let mut of = BTreeMap::new();
     for (index, part) in job.parts.iter().enumerate() {
         for fin in of_part(part) {
@@ -47,7 +47,7 @@ pub(super) fn parts(job: &Job) -> BTreeMap<[usize; 2], usize> {
 }
 
 /// Where a part lies: number of its sheet, from 0.
-pub(super) fn sheets(job: &Job) -> BTreeMap<usize, usize> {
+pub(super) fn sheets(job: &Fabrication) -> BTreeMap<usize, usize> {
     let sheets = job.layout.sheets.iter().enumerate();
     sheets
         .flat_map(|(sheet, nested)| {

@@ -1,8 +1,8 @@
 //! `job.json`: everything an outside program needs to predict each cut line and to fold
 //! each part back onto the structure (contract §3).
 
+use crate::fabrication::Fabrication;
 use crate::geometry::{Contour, Point2};
-use crate::job::Job;
 use crate::joint::Joint;
 use crate::nest::{NestedSheet, Stock};
 use crate::parts::{self, Body, FlatAxis, Opening, Part, Slit, Step, StripBody};
@@ -35,7 +35,7 @@ pub struct Source<'a> {
 }
 
 /// The manifest of a job.
-pub fn manifest(job: &Job, source: &Source) -> Value {
+pub fn manifest(job: &Fabrication, source: &Source) -> Value {
     let material = &source.template.material;
     json!({
         "format": "finwright-job",
@@ -53,10 +53,10 @@ pub fn manifest(job: &Job, source: &Source) -> Value {
             "kerf": material.kerf_mm,
             "clearance": material.clearance_mm,
         },
-        "sheet_stock": job.stock.iter().map(stock).collect::<Vec<_>>(),
+        "sheet_stock": job.settings.stock.iter().map(stock).collect::<Vec<_>>(),
         "verdict": job.verdict.as_ref().map(|verdict| verdict.json(source.joint, false)),
         "only": if job.only.is_empty() { Value::Null } else { json!(job.only) },
-        "accepted_flexible": job.accepted_flexible,
+        "accepted_flexible": job.settings.accepted_flexible,
         "findings": job.findings,
         "proof": {"limits": limits(source.template)},
         "parts": job.parts.iter().map(part).collect::<Vec<_>>(),
@@ -158,7 +158,7 @@ fn slit(slit: &Slit, partner: &str) -> Value {
     })
 }
 
-fn sheets(job: &Job) -> Vec<Value> {
+fn sheets(job: &Fabrication) -> Vec<Value> {
     let pairs = job.sheets.iter().zip(&job.layout.sheets);
     let mut copies = Copies::default();
     pairs.map(|(sheet, nested)| sheet_entry(job, sheet, nested, &mut copies)).collect()
@@ -168,7 +168,7 @@ fn sheets(job: &Job) -> Vec<Value> {
 type Copies = BTreeMap<usize, usize>;
 
 fn sheet_entry(
-    job: &Job,
+    job: &Fabrication,
     sheet: &Sheet,
     nested: &NestedSheet,
     copies: &mut Copies,
@@ -187,7 +187,11 @@ fn sheet_entry(
     })
 }
 
-fn placements(job: &Job, nested: &NestedSheet, copies: &mut Copies) -> Vec<Value> {
+fn placements(
+    job: &Fabrication,
+    nested: &NestedSheet,
+    copies: &mut Copies,
+) -> Vec<Value> {
     let placements = nested.placements.iter().map(|p| {
         let copy = copies.entry(p.shape).or_default();
         *copy += 1;
@@ -203,7 +207,7 @@ fn placements(job: &Job, nested: &NestedSheet, copies: &mut Copies) -> Vec<Value
 }
 
 /// The files for a service, with where parts lie in them.
-fn for_vendor(job: &Job, vendor: &VendorSheets) -> Value {
+fn for_vendor(job: &Fabrication, vendor: &VendorSheets) -> Value {
     let mut copies = Copies::default();
     let sheets =
         vendor.sheets.iter().zip(&vendor.layout.sheets).map(|(sheet, nested)| {
@@ -227,7 +231,7 @@ fn for_vendor(job: &Job, vendor: &VendorSheets) -> Value {
 }
 
 /// The steps in order.
-fn assembly(job: &Job, template: &Template) -> Vec<Value> {
+fn assembly(job: &Fabrication, template: &Template) -> Vec<Value> {
     let steps = job.steps.iter().enumerate();
     let value = |(k, step): (usize, &Step)| {
         let part = &job.parts[step.part];
@@ -243,7 +247,7 @@ fn assembly(job: &Job, template: &Template) -> Vec<Value> {
 }
 
 /// A strip goes in from above, its slits open at the bottom onto the strips that stand.
-fn strip_step(job: &Job, body: &StripBody, template: &Template) -> Value {
+fn strip_step(job: &Fabrication, body: &StripBody, template: &Template) -> Value {
     let onto = body.slits.iter().filter(|(slit, _)| slit.from == Opening::Bottom);
     let onto = onto.map(|(slit, partner)| json!({"node": slit.node, "part": partner}));
     json!({
@@ -255,7 +259,7 @@ fn strip_step(job: &Job, body: &StripBody, template: &Template) -> Value {
 }
 
 /// How a strip goes in, by numbers; `None` for one that goes onto nothing.
-fn insertion(job: &Job, body: &StripBody, template: &Template) -> Option<Value> {
+fn insertion(job: &Fabrication, body: &StripBody, template: &Template) -> Option<Value> {
     let material = &template.material;
     let way = parts::insertion(job.structure.as_ref()?, body, material.clearance_mm)?;
     Some(json!({
@@ -272,7 +276,7 @@ fn insertion(job: &Job, body: &StripBody, template: &Template) -> Option<Value> 
 }
 
 /// Lengths, time, mass and cost of a whole job.
-fn totals(job: &Job, template: &Template) -> Value {
+fn totals(job: &Fabrication, template: &Template) -> Value {
     let length = |operations: &[Operation]| -> f64 {
         let strokes = job.sheets.iter().flat_map(|sheet| &sheet.strokes);
         let wanted = strokes.filter(|stroke| operations.contains(&stroke.operation));
@@ -297,7 +301,7 @@ fn totals(job: &Job, template: &Template) -> Value {
 }
 
 /// Price of the sheets used, if the template prices all of them.
-fn cost(job: &Job, template: &Template) -> Option<f64> {
+fn cost(job: &Fabrication, template: &Template) -> Option<f64> {
     let price = |nested: &NestedSheet| {
         let sheet = template.sheet.get(nested.stock)?;
         let by_area = template.material.price_per_m2;

@@ -3,8 +3,8 @@
 //! Every part is a slab over its flat shape; a ray per pixel finds the first slab it meets
 //! (parallel projection). So what is seen is what is cut, notches, slits and all.
 
+use crate::fabrication::Fabrication;
 use crate::geometry::{Point2, Point3, Vector2, Vector3, trig};
-use crate::job::Job;
 use crate::parts::{Body, ConnectorBody, Part};
 use crate::structure::Structure;
 use crate::tolerance::ARC_SAGITTA_MM;
@@ -25,7 +25,7 @@ const FIN: [f64; 3] = [0.62, 0.76, 0.86];
 const PLATE: [f64; 3] = [0.98, 0.66, 0.28];
 
 /// The picture of a node as PNG, fins `thickness` mm thick; `None` if no connector is there.
-pub fn node_picture(job: &Job, node: usize, thickness: f64) -> Option<Vec<u8>> {
+pub fn node_picture(job: &Fabrication, node: usize, thickness: f64) -> Option<Vec<u8>> {
     let structure = job.structure.as_ref()?;
     let connector = job.parts.iter().find_map(|part| match &part.body {
         Body::Connector(body) if body.node() == node => Some((part, body)),

@@ -1,7 +1,7 @@
 //! The structure seen from one side in parallel projection, for pictures of steps.
 
+use crate::fabrication::Fabrication;
 use crate::geometry::{Point2, Vector3, trig};
-use crate::job::Job;
 use crate::report::fins;
 use crate::structure::Structure;
 
@@ -28,7 +28,7 @@ pub(super) struct Picture {
 
 impl Picture {
     /// The picture of a job, as wide as `width`, its lower left corner in the origin.
-    pub(super) fn new(job: &Job, structure: &Structure, width: f64) -> Self {
+    pub(super) fn new(job: &Fabrication, structure: &Structure, width: f64) -> Self {
         let view = View::new();
         let mut panels: Vec<(f64, Panel)> = Vec::new();
         for (part, made) in job.parts.iter().enumerate() {

@@ -1,6 +1,6 @@
 //! The steps of assembly in words.
 
-use crate::job::Job;
+use crate::fabrication::Fabrication;
 use crate::parts::{Body, Connector, ConnectorBody, Opening, Part, insertion};
 use crate::template::Template;
 use std::collections::BTreeSet;
@@ -24,7 +24,7 @@ const ALL_SHOWN: usize = 100_000;
 
 /// The parts that stand before a step, as far as its picture shows them: those it goes
 /// onto, and where that is not too much all others.
-pub(super) fn standing(job: &Job, steps: &[Step], k: usize) -> Vec<usize> {
+pub(super) fn standing(job: &Fabrication, steps: &[Step], k: usize) -> Vec<usize> {
     let fins = job.structure.as_ref().map_or(0, |structure| structure.fins().len());
     let all = fins * steps.len() / 2 <= ALL_SHOWN;
     let onto =
@@ -33,7 +33,7 @@ pub(super) fn standing(job: &Job, steps: &[Step], k: usize) -> Vec<usize> {
     before.filter(|part| all || onto(part)).collect()
 }
 
-fn step(job: &Job, part: usize, template: &Template) -> Option<Step> {
+fn step(job: &Fabrication, part: usize, template: &Template) -> Option<Step> {
     let Body::Strip(body) = &job.parts[part].body else { return None };
     let onto = body.slits.iter().filter(|(slit, _)| slit.from == Opening::Bottom);
     let onto: Vec<(usize, String)> =
@@ -63,7 +63,7 @@ fn step(job: &Job, part: usize, template: &Template) -> Option<Step> {
 
 /// The steps in order: one per strip and one per connector, which ends with the last of its
 /// plates; the fins that came since the step before go in with it.
-pub(super) fn steps(job: &Job, template: &Template) -> Vec<Step> {
+pub(super) fn steps(job: &Fabrication, template: &Template) -> Vec<Step> {
     let mut steps = Vec::new();
     let mut new: Vec<usize> = Vec::new();
     let strips = job.has(|body| matches!(body, Body::Strip(_)));
@@ -105,7 +105,7 @@ pub(super) fn steps(job: &Job, template: &Template) -> Vec<Step> {
 
 /// A connector with the fins that are new at it.
 fn connected(
-    job: &Job,
+    job: &Fabrication,
     part: usize,
     (body, words): (&ConnectorBody, Option<String>),
     new: Vec<usize>,

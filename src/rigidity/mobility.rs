@@ -73,7 +73,7 @@ fn null_space(
         orthonormalise(block);
     };
     for seed in 0..(size / RHS) as u64 + 1 {
-        Halt::if_stopped(watch)?;
+        watch.unless_stopped()?;
         let mut block = random_block(seed, size, RHS);
         inverse.project(&mut block);
         for _ in 0..2 {

@@ -31,6 +31,7 @@ mod system;
 mod tests;
 mod verdict;
 
+use crate::watch::Watch;
 pub use amplify::Bracket;
 pub use criteria::{Criteria, Pairing, SwayLimit};
 pub use finding::RigidityFinding;
@@ -40,6 +41,7 @@ pub use paper::{Discrepancy, MOST_PAIRED, Motion, Paper};
 pub use picture::{Look, picture};
 pub use remedy::{Cure, FEW_STEPS, MOST_STEPS, Remedy, remedies};
 pub use sway::Sway;
+
 /// Rms deviation of contacts over rms motion in the `wanted` motions that meet least
 /// resistance, ascending; `fixed` is a body to hold beside the held nodes. `None` if a
 /// motion meets no resistance at all and the factorisation fails on it.
@@ -48,9 +50,9 @@ pub fn least_resisted(
     fixed: Option<usize>,
     wanted: usize,
 ) -> Option<Vec<f64>> {
-    let threads = std::thread::available_parallelism().map_or(1, usize::from);
+    let threads = ().threads();
     let system = system::System::new(model, fixed, threads);
     spectrum::least(&system, wanted, &()).ok().map(|modes| modes.sigma)
 }
 
-pub use verdict::{Fingerprint, Outcome, Stopped, Verdict, judge};
+pub use verdict::{Fingerprint, Outcome, Verdict, judge};

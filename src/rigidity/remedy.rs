@@ -12,9 +12,8 @@ use crate::rigidity::motions::Twists;
 use crate::rigidity::spectrum::least;
 use crate::rigidity::sway::{self, Sway, node_velocity};
 use crate::rigidity::system::System;
-use crate::rigidity::verdict::Stopped;
 use crate::sparse::Halt;
-use crate::watch::Watch;
+use crate::watch::{Stopped, Watch};
 use std::collections::BTreeSet;
 
 /// What is done in one step.
@@ -86,7 +85,7 @@ fn course(
     choose: Choose,
     watch: &mut dyn Watch,
 ) -> Result<Vec<Remedy>, Stopped> {
-    let threads = std::thread::available_parallelism().map_or(1, usize::from);
+    let threads = watch.threads();
     let mut model = model.clone();
     let mut taken = BTreeSet::new();
     let mut course: Vec<Remedy> = Vec::new();
@@ -94,7 +93,7 @@ fn course(
         watch.progress("remedies", course.len(), most);
         let system = System::new(&model, None, threads);
         let resisted = match resisted(&system, watch) {
-            Err(Halt::Stopped) => return Err(Stopped),
+            Err(Halt::Stopped(stopped)) => return Err(stopped),
             Err(Halt::Failed) => break,
             Ok(resisted) => resisted,
         };
@@ -137,7 +136,7 @@ fn effect(
     cure: Cure,
     watch: &dyn Watch,
 ) -> Result<Remedy, Stopped> {
-    let threads = std::thread::available_parallelism().map_or(1, usize::from);
+    let threads = watch.threads();
     let system = System::new(model, None, threads);
     let mut remedy = Remedy {
         node,
@@ -159,7 +158,7 @@ fn effect(
         Ok(())
     };
     // What cannot be solved is no cure.
-    if let Err(Halt::Stopped) = look() { Err(Stopped) } else { Ok(remedy) }
+    if let Err(Halt::Stopped(stopped)) = look() { Err(stopped) } else { Ok(remedy) }
 }
 
 /// How fast a body turns in a motion of the pins.

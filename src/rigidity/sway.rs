@@ -110,7 +110,7 @@ pub(super) fn worst(
             Load::new(system, rigid, *coupling, settled(axes.column(k).into()))
         })
     });
-    Halt::if_stopped(watch)?;
+    watch.unless_stopped()?;
     let mut all = Bracketing::first(system, &factor, loads.collect());
     // The rounds need the room.
     drop(factor);
@@ -145,7 +145,7 @@ pub(super) fn with_stiff_joints(
     sway: &Sway,
     watch: &dyn Watch,
 ) -> Result<Option<Bracket>, Halt> {
-    Halt::if_stopped(watch)?;
+    watch.unless_stopped()?;
     let model = system.model.clone().stiff();
     let stiff = System::new(&model, system.fixed, system.threads);
     let rounds = rounds_for_figures(&stiff).min(FEW_ROUNDS);
@@ -154,10 +154,10 @@ pub(super) fn with_stiff_joints(
         .pin(sway.node)
         .and_then(|pin| Load::new(&stiff, &rigid, pin, sway.direction));
     let Some(load) = load.filter(|_| rounds > 0) else { return Ok(None) };
-    Halt::if_stopped(watch)?;
+    watch.unless_stopped()?;
     let mut found = Bracketing::first(&stiff, &stiff.factor()?, vec![load]).remove(0);
     for _ in 0..rounds {
-        Halt::if_stopped(watch)?;
+        watch.unless_stopped()?;
         if found.bracket().is_narrow() {
             break;
         }
@@ -195,7 +195,7 @@ fn tighten(
     watch: &dyn Watch,
 ) -> Result<(), Halt> {
     for round in 0..MOST_ROUNDS.max(rounds) {
-        Halt::if_stopped(watch)?;
+        watch.unless_stopped()?;
         let top = highest(all, limit);
         let sways = |b: &Bracketing| b.bracket().lower * play > limit(b.load.coupling);
         let stands = all[top].bracket().upper * play <= limit(all[top].load.coupling)

@@ -14,9 +14,8 @@ use crate::rigidity::system::System;
 use crate::sparse::Halt;
 use crate::structure::{Structure, write_json};
 use crate::tolerance::FORCE_BALANCE;
-use crate::watch::Watch;
+use crate::watch::{Stopped, Watch};
 use sha2::{Digest, Sha256};
-use thiserror::Error;
 
 /// The modes that decide where to look.
 const LEAST_MODES: usize = 8;
@@ -26,10 +25,16 @@ const LEAST_MODES: usize = 8;
 pub struct Fingerprint(String);
 
 impl Fingerprint {
-    /// Of a structure as built, its joint and the text of the template.
-    pub fn of(structure: &Structure, joint: Joint, template: &str) -> Self {
+    /// Of a structure as built, its joint, the text of the template and the nodes with hubs.
+    pub fn of(
+        structure: &Structure,
+        joint: Joint,
+        template: &str,
+        hub_nodes: &[usize],
+    ) -> Self {
+        let (structure, hubs) = (write_json(structure), format!("{hub_nodes:?}"));
         let mut hash = Sha256::new();
-        for part in [write_json(structure).as_str(), joint.name(), template] {
+        for part in [structure.as_str(), joint.name(), template, &hubs] {
             hash.update((part.len() as u64).to_le_bytes());
             hash.update(part.as_bytes());
         }
@@ -94,11 +99,6 @@ pub struct Verdict {
     notes: Vec<RigidityFinding>,
 }
 
-/// The watch stopped the work.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Error)]
-#[error("stopped")]
-pub struct Stopped;
-
 /// Judges a model. `of` says what it was made from.
 ///
 /// # Errors
@@ -109,12 +109,12 @@ pub fn judge(
     of: Fingerprint,
     watch: &mut dyn Watch,
 ) -> Result<Verdict, Stopped> {
-    let threads = std::thread::available_parallelism().map_or(1, usize::from);
+    let threads = watch.threads();
     let criteria = &Criteria { play_mm: criteria.play_mm.max(0.0), ..*criteria };
     let system = System::new(model, None, threads);
     watch.progress("rigidity", 0, STEPS);
     let paper = match paper(model, criteria, threads, watch) {
-        Err(Halt::Stopped) => return Err(Stopped),
+        Err(Halt::Stopped(stopped)) => return Err(stopped),
         paper => paper.ok(),
     };
     let mut verdict = Verdict {
@@ -133,7 +133,7 @@ pub fn judge(
         notes: notes(model),
     };
     match verdict.find(&system, criteria, watch) {
-        Err(Halt::Stopped) => return Err(Stopped),
+        Err(Halt::Stopped(stopped)) => return Err(stopped),
         Err(Halt::Failed) => verdict.notes.push(RigidityFinding::NotSolved),
         Ok(()) => {}
     }

@@ -9,7 +9,7 @@ use crate::sparse::front::Workspace;
 use crate::sparse::panel::{Columns, pack};
 use crate::sparse::parallel::{map_range, worthwhile};
 use crate::sparse::symbolic::{Supernode, Symbolic};
-use crate::watch::Watch;
+use crate::watch::Stopped;
 use std::ops::Range;
 use std::sync::mpsc::channel;
 
@@ -31,7 +31,7 @@ pub(crate) enum Halt {
     /// A factorisation or decomposition failed.
     Failed,
     /// Nobody waits for it any more.
-    Stopped,
+    Stopped(Stopped),
 }
 
 impl From<Singular> for Halt {
@@ -40,10 +40,9 @@ impl From<Singular> for Halt {
     }
 }
 
-impl Halt {
-    /// To be asked between long steps.
-    pub(crate) fn if_stopped(watch: &dyn Watch) -> Result<(), Self> {
-        if watch.stopped() { Err(Self::Stopped) } else { Ok(()) }
+impl From<Stopped> for Halt {
+    fn from(stopped: Stopped) -> Self {
+        Self::Stopped(stopped)
     }
 }
 

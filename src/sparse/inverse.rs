@@ -33,7 +33,7 @@ impl Factor<'_> {
         let mut top: Fronts = vec![None; count];
         let mut taken: Vec<(usize, T)> = Vec::with_capacity(self.symbolic.place.len());
         for &s in self.top.iter().rev() {
-            Halt::if_stopped(watch)?;
+            watch.unless_stopped()?;
             let front = self.front(s, |parent| top[parent].as_ref());
             taken.extend(self.blocks(s, front.as_ref(), take));
             top[s] = Some(front);
@@ -48,7 +48,7 @@ impl Factor<'_> {
             }
             taken
         };
-        Halt::if_stopped(watch)?;
+        watch.unless_stopped()?;
         let fresh = || vec![None; count];
         let subtrees = map_range(self.threads, self.subtrees.len(), fresh, subtree);
         taken.extend(subtrees.into_iter().flatten());

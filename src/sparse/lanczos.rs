@@ -70,7 +70,7 @@ pub(crate) fn largest(
     let mut projected: Mat<f64> = Mat::zeros(0, 0);
     let mut ends = None;
     for _ in 0..MOST_STEPS {
-        Halt::if_stopped(watch)?;
+        watch.unless_stopped()?;
         basis.add(&mut next, cleared.inverse.as_ref());
         let Some(last) = basis.blocks.last().filter(|last| last.columns > 0) else {
             break;

@@ -13,6 +13,7 @@ pub(crate) use keys::nearest;
 
 use crate::tolerance::{PROOF_LIMIT_DEG, PROOF_LIMIT_MM};
 use serde::Deserialize;
+use sha2::{Digest, Sha256};
 
 /// What a job is cut from, on and for.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
@@ -187,17 +188,9 @@ const EMBEDDED: [(&str, &str); 7] = [
 ];
 
 impl Template {
-    /// The template with hubs on more nodes; its text says so, for it is what a verdict is
-    /// about.
-    #[must_use]
-    pub fn with_hub_nodes(mut self, nodes: &[usize]) -> Self {
-        if !nodes.is_empty() {
-            self.joint.hub_nodes.extend(nodes);
-            self.joint.hub_nodes.sort_unstable();
-            self.joint.hub_nodes.dedup();
-            self.source += &format!("\n# and hubs on nodes {nodes:?}\n");
-        }
-        self
+    /// SHA-256 of its text, hexadecimal.
+    pub fn sha256(&self) -> String {
+        Sha256::digest(&self.source).iter().map(|byte| format!("{byte:02x}")).collect()
     }
 }
 

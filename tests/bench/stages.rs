@@ -4,9 +4,10 @@
 //! default template; the median of five runs each, as time passed and as time of all cores
 //! (Linux only), which other work on the machine disturbs less. By hand, never a test.
 
+use finwright::fabrication::fabricate;
 use finwright::geometry::{Point3, Vector3};
-use finwright::job::{self, Order};
 use finwright::nest::Effort;
+use finwright::settings::Settings;
 use finwright::structure::Draft;
 use finwright::watch::Watch;
 use std::time::{Duration, Instant};
@@ -71,17 +72,14 @@ fn run(fins: usize) -> (usize, Vec<Span>) {
     };
     let mut clock = Clock(Vec::new());
     let effort = Effort { trials: 1, seed: 0 };
-    let order = Order {
-        draft: patch(fins),
-        template: &template,
-        joint: finwright::joint::Joint::Lap,
-        effort,
-        accepted_flexible: None,
+    let settings = Settings { effort, ..Settings::new(template) };
+    let Ok(job) = fabricate(patch(fins), settings, &mut clock) else {
+        return (0, Vec::new());
     };
-    let job = job::run(order, &mut clock).ok().unwrap_or_default();
     clock.progress("export", 0, 1);
-    if let Ok(sheets) = job.approved(finwright::joint::Joint::Lap, &template) {
-        std::hint::black_box(finwright::export::cut_files(&sheets));
+    if let Ok(sheets) = job.approved() {
+        let files = finwright::export::cut_files(&sheets, clock.threads());
+        std::hint::black_box(files.ok());
     }
     clock.progress("end", 0, 1);
     let span = |pair: &[(&'static str, Instant, f64)]| {

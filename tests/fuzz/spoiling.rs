@@ -4,8 +4,9 @@
 
 use finwright::diagnostic::{Severity, passes};
 use finwright::export::PngLook;
-use finwright::job::{self, Job, Order};
+use finwright::fabrication::{Fabrication, fabricate};
 use finwright::nest::Effort;
+use finwright::settings::Settings;
 use finwright::sheets::Path;
 use finwright::structure::{
     AxisRule, Draft, ObjOptions, Structure, read_json, read_obj, write_json, write_obj,
@@ -135,9 +136,8 @@ impl Valid {
 
     fn make(&self, draft: Draft, template: &Template) -> Outcome {
         let effort = Effort { trials: 1, seed: 0 };
-        let joint = finwright::joint::Joint::Lap;
-        let order = Order { draft, template, joint, effort, accepted_flexible: None };
-        let job = job::run(order, &mut ()).unwrap();
+        let settings = Settings { effort, ..Settings::new(template.clone()) };
+        let job = fabricate(draft, settings, &mut ()).unwrap();
         for finding in &job.findings {
             let said = [&finding.code, &finding.message, &finding.help];
             assert!(said.iter().all(|text| !text.is_empty()), "{finding:?}");
@@ -148,7 +148,7 @@ impl Valid {
             return Outcome::NoStructure;
         }
         let _ = report::bill(&job, &template.material.name);
-        match job.approved(joint, template) {
+        match job.approved() {
             Ok(sheets) => {
                 assert_finite(&job);
                 let look = PngLook { px_per_mm: 0.2, ..PngLook::default() };
@@ -166,7 +166,7 @@ impl Valid {
 }
 
 /// A layout that is unsound for no reason that the user was told of is our fault.
-fn assert_explained(job: &Job) {
+fn assert_explained(job: &Fabrication) {
     let unsound = job.findings.iter().any(|finding| finding.code == "nest::unsound");
     let errors = job.findings.iter().filter(|f| f.severity == Severity::Error).count();
     assert!(!unsound || errors > 1, "unsound without a reason: {:?}", job.findings);
@@ -174,7 +174,7 @@ fn assert_explained(job: &Job) {
 }
 
 /// What goes to the laser is made of numbers.
-fn assert_finite(job: &Job) {
+fn assert_finite(job: &Fabrication) {
     assert!(!job.sheets.is_empty());
     for stroke in job.sheets.iter().flat_map(|sheet| &sheet.strokes) {
         let finite = match &stroke.path {

@@ -24,12 +24,11 @@ const ORDER: &[&str] = &[
     "gate",
     "export",
     "vendor",
-    "setting",
+    "settings",
+    "fabrication",
     "proof",
-    "job",
-    "advice",
-    "replacement",
     "report",
+    "job",
     "cli",
 ];
 

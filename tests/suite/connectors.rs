@@ -4,35 +4,37 @@ use crate::planting::{Planting, found, job};
 use crate::structures::material;
 use finwright::design::examples;
 use finwright::diagnostic::passes;
+use finwright::fabrication::{Fabrication, fabricate, with_remedies};
 use finwright::geometry::{Contour, Point2, Vector2, Vertex, trig};
-use finwright::job::{self, Job, Order};
 use finwright::joint::Joint;
 use finwright::nest::Effort;
 use finwright::parts::{self, Body, ConnectorBody, Part, inner_radius};
 use finwright::proof::prove;
 use finwright::rigidity::Outcome;
+use finwright::settings::Settings;
 use finwright::structure::{Draft, Structure};
 use finwright::template::Template;
 use std::collections::{BTreeMap, BTreeSet};
 use std::f64::consts::PI;
 
 /// An embedded structure made with single fins.
-fn made(name: &str, joint: Joint, template: &Template) -> Job {
+fn made(name: &str, joint: Joint, template: &Template) -> Fabrication {
     let draft = (examples::named(name).unwrap().draft)();
     let effort = Effort { trials: 1, seed: 0 };
     let accepted_flexible = Some("a test".to_owned());
-    let order = Order { draft, template, joint, effort, accepted_flexible };
-    job::run(order, &mut ()).unwrap()
+    let settings = Settings::new(template.clone());
+    let settings = Settings { joint, effort, accepted_flexible, ..settings };
+    fabricate(draft, settings, &mut ()).unwrap()
 }
 
-fn connectors(job: &Job) -> impl Iterator<Item = (&Part, &ConnectorBody)> {
+fn connectors(job: &Fabrication) -> impl Iterator<Item = (&Part, &ConnectorBody)> {
     job.parts.iter().filter_map(|part| match &part.body {
         Body::Connector(body) => Some((part, body)),
         _ => None,
     })
 }
 
-fn fins(job: &Job) -> BTreeMap<&str, [usize; 2]> {
+fn fins(job: &Fabrication) -> BTreeMap<&str, [usize; 2]> {
     let fins = job.parts.iter().filter_map(|part| match &part.body {
         Body::Fin(fin) => Some((part.id.as_str(), fin.nodes)),
         _ => None,
@@ -71,7 +73,7 @@ fn every_fin_is_there_once_and_every_node_has_its_connector_at_the_angles_in_spa
     }
 }
 
-fn is_complete(job: &Job, joint: Joint) {
+fn is_complete(job: &Fabrication, joint: Joint) {
     let structure = job.structure.as_ref().unwrap();
     let mut cut: Vec<[usize; 2]> = fins(job).into_values().collect();
     cut.sort_unstable();
@@ -93,7 +95,7 @@ fn is_complete(job: &Job, joint: Joint) {
     assert_eq!(placed, job.parts.iter().map(|part| part.quantity).sum::<usize>());
 }
 
-fn stands_as_in_space(job: &Job, name: &str) {
+fn stands_as_in_space(job: &Fabrication, name: &str) {
     let (structure, fins) = (job.structure.as_ref().unwrap(), fins(job));
     for (_, body) in connectors(job) {
         let node = body.node();
@@ -118,8 +120,8 @@ fn a_window_that_is_turned_and_a_fin_that_is_swapped_collide() {
     let template = material("pmma-cast-3");
     let job = made("five", Joint::Hub, &template);
     let structure = job.structure.as_ref().unwrap();
-    let fit = job::fit(&template);
-    let hits = |parts: &[Part]| parts::collisions(structure, parts, &fit);
+    let fit = &job.settings.fit;
+    let hits = |parts: &[Part]| parts::collisions(structure, parts, fit);
     assert!(hits(&job.parts).is_empty());
     let nth = job.parts.iter().position(|part| part.id == "N20").unwrap();
 
@@ -243,30 +245,33 @@ fn hubs_on_a_hinged_structure_hold_it_and_the_gate_knows() {
         let draft = (examples::named("three").unwrap().draft)();
         Draft { fixed: Some(vec![6, 24, 30, 54, 60, 84]), ..draft }
     };
-    let made = |joint, template: &Template| {
+    let made = |settings: &Settings| {
         let effort = Effort { trials: 1, seed: 0 };
-        let (draft, accepted_flexible) = (draft(), Some("a test".to_owned()));
-        job::run(Order { draft, template, joint, effort, accepted_flexible }, &mut ())
-            .unwrap()
+        let accepted_flexible = Some("a test".to_owned());
+        let settings = Settings { effort, accepted_flexible, ..settings.clone() };
+        fabricate(draft(), settings, &mut ()).unwrap()
     };
-    let outcome = |job: &Job| job.verdict.as_ref().unwrap().outcome();
+    let outcome = |job: &Fabrication| job.verdict.as_ref().unwrap().outcome();
     let mut template = material("pmma-cast-3");
     template.gate.play_mm = Some(0.015);
-    let loose = made(Joint::Hinge, &template);
+    let hinges = Settings { joint: Joint::Hinge, ..Settings::new(template) };
+    let loose = made(&hinges);
     assert_eq!(outcome(&loose), Outcome::Mechanism);
 
     let every: Vec<usize> = (0..91).collect();
-    let all = made(Joint::Hinge, &template.clone().with_hub_nodes(&every));
-    assert_eq!(outcome(&all), outcome(&made(Joint::Hub, &template)));
+    let all = made(&hinges.clone().with_hubs(&every));
+    let hubs = Settings { joint: Joint::Hub, ..hinges.clone() };
+    assert_eq!(outcome(&all), outcome(&made(&hubs)));
 
-    let cured = job::with_remedies(&draft(), template.clone(), &mut ()).unwrap();
-    let few = cured.joint.hub_nodes.len();
-    let job = made(Joint::Hinge, &cured);
+    let cured = with_remedies(&draft(), hinges.clone(), &mut ()).unwrap();
+    let few = cured.hub_nodes.len();
+    let job = made(&cured);
     assert!(job.verdict.as_ref().unwrap().passes(), "{few} hubs");
     let hubs = connectors(&job).filter(|(part, _)| part.quantity == 2);
     assert!(few < 91 && hubs.count() >= few);
-    assert!(job.approved(Joint::Hinge, &cured).is_ok());
-    assert!(job.approved(Joint::Hinge, &template).is_err(), "judged with hubs");
+    assert!(job.approved().is_ok());
+    let without = Fabrication { settings: hinges, ..job };
+    assert!(without.approved().is_err(), "judged with hubs");
 }
 
 #[test]

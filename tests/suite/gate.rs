@@ -1,11 +1,12 @@
 //! Nothing flexible leaves a cut file behind.
 
 use finwright::design::examples;
+use finwright::fabrication::{Fabrication, criteria, fabricate, verdict};
 use finwright::gate::Shut;
-use finwright::job::{self, Job, Order};
 use finwright::joint::Joint;
 use finwright::nest::Effort;
 use finwright::rigidity::Outcome;
+use finwright::settings::Settings;
 use finwright::structure::{Draft, Structure};
 use finwright::template::{self, Template};
 use finwright::tolerance::Tolerance;
@@ -63,9 +64,10 @@ fn vault(fixed: Option<Vec<usize>>) -> Draft {
 
 fn outcome(draft: Draft, joint: Joint) -> Outcome {
     let (structure, _) = Structure::new(draft, &Tolerance::default()).expect("it is one");
-    let asked = (&default_template(), None);
-    let verdict = job::verdict(&structure, joint, asked, &mut ());
-    let verdict = verdict.expect("the template's limit can be read");
+    let settings = Settings { joint, ..Settings::new(default_template()) };
+    let criteria = criteria(&structure, &settings.template);
+    let criteria = criteria.expect("the template's limit can be read");
+    let verdict = verdict(&structure, &settings, &criteria, &mut ());
     verdict.expect("nobody stops it").outcome()
 }
 
@@ -109,35 +111,36 @@ fn the_frame_of_each_sheet_says_why_it_may_be_flexible() {
     assert!(strokes(Some("a folding screen")) > strokes(None));
 }
 
-fn made(template: &Template, accepted: Option<&str>) -> Job {
-    let order = Order {
-        draft: (examples::named("three").expect("it is embedded").draft)(),
-        template,
-        joint: Joint::Lap,
+fn made(template: &Template, accepted: Option<&str>) -> Fabrication {
+    let settings = Settings {
         effort: Effort { trials: 1, seed: 0 },
         accepted_flexible: accepted.map(str::to_owned),
+        ..Settings::new(template.clone())
     };
-    job::run(order, &mut ()).expect("nobody stops it")
+    let draft = (examples::named("three").expect("it is embedded").draft)();
+    fabricate(draft, settings, &mut ()).expect("nobody stops it")
 }
 
 #[test]
 fn a_verdict_about_something_else_opens_nothing() {
     let template = default_template();
     let job = made(&template, None);
-    assert!(job.approved(Joint::Lap, &template).is_ok());
-    assert_eq!(job.approved(Joint::Hinge, &template), Err(Shut::Stale));
+    assert!(job.approved().is_ok());
+    let with = |settings| Fabrication { settings, ..job.clone() };
+    let hinged = Settings { joint: Joint::Hinge, ..job.settings.clone() };
+    assert_eq!(with(hinged).approved(), Err(Shut::Stale));
     let mut other = template.clone();
     other.source.push_str("\n# another clearance");
-    assert_eq!(job.approved(Joint::Lap, &other), Err(Shut::Stale));
+    assert_eq!(with(Settings::new(other)).approved(), Err(Shut::Stale));
     let (moved, _) = Structure::new(
         (examples::named("three").expect("it is embedded").draft)().scaled(1.001),
         &Tolerance::default(),
     )
     .expect("it is one");
-    let moved = Job { structure: Some(moved), ..job.clone() };
-    assert_eq!(moved.approved(Joint::Lap, &template), Err(Shut::Stale));
-    let unjudged = Job { verdict: None, ..job };
-    assert_eq!(unjudged.approved(Joint::Lap, &template), Err(Shut::Stale));
+    let moved = Fabrication { structure: Some(moved), ..job.clone() };
+    assert_eq!(moved.approved(), Err(Shut::Stale));
+    let unjudged = Fabrication { verdict: None, ..job };
+    assert_eq!(unjudged.approved(), Err(Shut::Stale));
 }
 
 #[test]

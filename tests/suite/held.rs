@@ -4,21 +4,26 @@ use crate::planting::{Planting, found, job};
 use crate::structures::material;
 use finwright::design::examples;
 use finwright::diagnostic::passes;
-use finwright::job::{self, Job, Order};
-use finwright::joint::Joint;
+use finwright::fabrication::{Fabrication, fabricate, model};
 use finwright::nest::Effort;
 use finwright::parts::{self, Body, ConnectorBody, Part};
 use finwright::proof::prove;
 use finwright::rigidity::{Model, RigidBody};
+use finwright::settings::Settings;
 use finwright::structure::{AxisRule, Draft, read_json};
 use finwright::template::Template;
 use std::collections::BTreeSet;
 
-fn made(draft: Draft, template: &Template) -> Job {
+fn made(draft: Draft, template: &Template) -> Fabrication {
+    with_hubs(draft, template, &[])
+}
+
+fn with_hubs(draft: Draft, template: &Template, hubs: &[usize]) -> Fabrication {
     let effort = Effort { trials: 1, seed: 0 };
     let accepted_flexible = Some("a test".to_owned());
-    let order = Order { draft, template, joint: Joint::Lap, effort, accepted_flexible };
-    job::run(order, &mut ()).unwrap()
+    let settings = Settings::new(template.clone()).with_hubs(hubs);
+    let settings = Settings { effort, accepted_flexible, ..settings };
+    fabricate(draft, settings, &mut ()).unwrap()
 }
 
 fn example(name: &str) -> Draft {
@@ -30,7 +35,7 @@ fn fixture(name: &str) -> Draft {
     read_json(&std::fs::read_to_string(path).unwrap(), AxisRule::File).unwrap().0
 }
 
-fn connectors(job: &Job) -> Vec<(&Part, &ConnectorBody)> {
+fn connectors(job: &Fabrication) -> Vec<(&Part, &ConnectorBody)> {
     let parts = job.parts.iter().filter_map(|part| match &part.body {
         Body::Connector(body) => Some((part, body)),
         _ => None,
@@ -39,7 +44,7 @@ fn connectors(job: &Job) -> Vec<(&Part, &ConnectorBody)> {
 }
 
 /// Names of the parts that end at a node, one for each end.
-fn ending(job: &Job, node: usize) -> Vec<String> {
+fn ending(job: &Fabrication, node: usize) -> Vec<String> {
     let ends =
         |part: &Part| part.body.tips().iter().filter(|t| t.axis.node == node).count();
     let ends = job.parts.iter().flat_map(|p| std::iter::repeat_n(p.id.clone(), ends(p)));
@@ -99,12 +104,12 @@ fn a_hub_that_was_asked_for_cuts_the_strips_that_ran_through() {
         _ => None,
     });
     let node = lapped.unwrap();
-    let asked = made(example("three"), &template.with_hub_nodes(&[node]));
+    let asked = with_hubs(example("three"), &template, &[node]);
     assert!(passes(&asked.findings), "{:#?}", asked.findings);
     assert_eq!(ending(&asked, node).len(), 4);
-    let fins = |job: &Job| job.structure.as_ref().unwrap().fins().to_vec();
+    let fins = |job: &Fabrication| job.structure.as_ref().unwrap().fins().to_vec();
     assert_eq!(fins(&job), fins(&asked));
-    let strips = |job: &Job| job.structure.as_ref().unwrap().strips().len();
+    let strips = |job: &Fabrication| job.structure.as_ref().unwrap().strips().len();
     assert_eq!(strips(&asked), strips(&job) + 2, "two strips were cut in two");
 }
 
@@ -114,7 +119,7 @@ fn the_verdict_counts_with_the_discs() {
     let draft = example("three");
     let job = made(draft, &template);
     let structure = job.structure.as_ref().unwrap();
-    let (model, ..) = job::model(structure, Joint::Lap, &template);
+    let (model, ..) = model(structure, &job.settings);
     let hubs =
         model.bodies.iter().filter(|body| matches!(body, RigidBody::Hub(_))).count();
     assert_eq!(hubs, connectors(&job).len());
@@ -126,9 +131,10 @@ fn the_verdict_counts_with_the_discs() {
     let bare = Model::of_strips(structure, &loose, &Default::default());
     let on = |model: &Model| model.couplings[model.pin(node).unwrap()].bodies.len();
     assert_eq!(on(&model), on(&bare) + 1);
-    assert!(job.approved(Joint::Lap, &template).is_ok(), "judged as it is cut");
-    let other = template.clone().with_hub_nodes(&[0]);
-    assert!(job.approved(Joint::Lap, &other).is_err(), "judged with other hubs");
+    assert!(job.approved().is_ok(), "judged as it is cut");
+    let settings = job.settings.clone().with_hubs(&[0]);
+    let other = Fabrication { settings, ..job };
+    assert!(other.approved().is_err(), "judged with other hubs");
 }
 
 #[test]
@@ -146,8 +152,8 @@ fn a_slot_of_another_strip_or_a_closed_window_makes_parts_collide() {
     let template = material("pmma-cast-3");
     let job = made(example("three"), &template);
     let structure = job.structure.as_ref().unwrap();
-    let fit = job::fit(&template);
-    let hits = |parts: &[Part]| parts::collisions(structure, parts, &fit);
+    let fit = &job.settings.fit;
+    let hits = |parts: &[Part]| parts::collisions(structure, parts, fit);
     assert!(hits(&job.parts).is_empty());
     let nth =
         job.parts.iter().position(|p| matches!(p.body, Body::Connector(_))).unwrap();

@@ -2,9 +2,9 @@
 
 use crate::plane::{apart, area, contains, cuts};
 use crate::structures::{any, made, material};
+use finwright::fabrication::Fabrication;
 use finwright::geometry::{Contour, Segment};
 use finwright::geometry::{Point2, Point3, Vector3, Vertex, trig};
-use finwright::job::Job;
 use finwright::parts::{Body, Opening, Slit, StripBody};
 use finwright::sheets::{Kerf, placed};
 use finwright::structure::{
@@ -20,15 +20,15 @@ const THICKNESS: f64 = 3.0;
 const CLEARANCE: f64 = 0.1;
 const KERF: f64 = 0.18;
 
-fn job(draft: finwright::structure::Draft) -> Job {
+fn job(draft: finwright::structure::Draft) -> Fabrication {
     made(draft, &material("pmma-cast-3"))
 }
 
-fn structure(job: &Job) -> &Structure {
+fn structure(job: &Fabrication) -> &Structure {
     job.structure.as_ref().expect("made() asks for one")
 }
 
-fn bodies(job: &Job) -> impl Iterator<Item = &StripBody> {
+fn bodies(job: &Fabrication) -> impl Iterator<Item = &StripBody> {
     job.parts.iter().filter_map(|part| match &part.body {
         Body::Strip(body) => Some(body),
         _ => None,
@@ -149,7 +149,7 @@ proptest! {
         let job = job(draft);
         let kerf = Kerf::from_width_mm(KERF);
         for sheet in &job.layout.sheets {
-            let stock = &job.stock[sheet.stock];
+            let stock = &job.settings.stock[sheet.stock];
             let rings = sheet.placements.iter().map(|placement| {
                 let drawn = kerf.compensated(&job.parts[placement.shape].region.outline);
                 drawn.moved(|p| placed(placement, p)).flattened(0.001)

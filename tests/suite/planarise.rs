@@ -1,6 +1,6 @@
 //! Planarising: what must hold whatever the mesh (issue "planar fins from any mesh").
 
-use finwright::design::planarise::{Options, Planarised, Stopped, planarise};
+use finwright::design::planarise::{Options, PlanariseError, Planarised, planarise};
 use finwright::diagnostic::Finding;
 use finwright::geometry::{Point3, Vector3, trig};
 use finwright::structure::{AxisRule, Draft, planarity};
@@ -161,7 +161,9 @@ fn held_nodes_and_axes_stay() {
 fn refused(draft: Draft) -> Vec<String> {
     let code = |finding: Finding| finding.code.to_string();
     match planarise(draft, &Options::default(), &mut ()) {
-        Err(Stopped::Refused(findings)) => findings.into_iter().map(code).collect(),
+        Err(PlanariseError::Refused(findings)) => {
+            findings.into_iter().map(code).collect()
+        }
         other => panic!("{other:?}"),
     }
 }

@@ -2,11 +2,12 @@
 
 use finwright::design::examples;
 use finwright::diagnostic::Finding;
+use finwright::fabrication::{Fabrication, fabricate};
 use finwright::geometry::{Point3, Vector3};
-use finwright::job::{self, Job, Order};
 use finwright::lettering::letter;
 use finwright::nest::Effort;
 use finwright::parts::Part;
+use finwright::settings::Settings;
 use finwright::structure::{AxisRule, Draft, ObjOptions, read_json, read_obj};
 use finwright::template::{self, Template};
 use finwright::units::Unit;
@@ -16,11 +17,10 @@ fn template(name: &str) -> Template {
     template::read(template::embedded(name).unwrap(), name).unwrap()
 }
 
-fn made(draft: Draft, template: &Template) -> Job {
+fn made(draft: Draft, template: &Template) -> Fabrication {
     let effort = Effort { trials: 1, seed: 0 };
-    let joint = finwright::joint::Joint::Lap;
-    job::run(Order { draft, template, joint, effort, accepted_flexible: None }, &mut ())
-        .unwrap()
+    let settings = Settings { effort, ..Settings::new(template.clone()) };
+    fabricate(draft, settings, &mut ()).unwrap()
 }
 
 fn codes(findings: &[Finding]) -> Vec<&str> {

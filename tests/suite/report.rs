@@ -2,10 +2,11 @@
 #![allow(clippy::unwrap_used, reason = "a test that cannot be set up has failed")]
 
 use finwright::design::examples;
-use finwright::job::{self, Job, Order};
+use finwright::fabrication::{Fabrication, fabricate};
 use finwright::joint::Joint;
 use finwright::nest::Effort;
 use finwright::report::{self, Page, Source};
+use finwright::settings::Settings;
 use finwright::structure::Draft;
 use finwright::template::{self, Template};
 use serde_json::Value;
@@ -15,10 +16,10 @@ fn template() -> Template {
     template::read(template::embedded(name).unwrap(), name).unwrap()
 }
 
-fn made(draft: Draft, joint: Joint, template: &Template) -> Job {
+fn made(draft: Draft, joint: Joint, template: &Template) -> Fabrication {
     let effort = Effort { trials: 1, seed: 0 };
-    let order = Order { draft, template, joint, effort, accepted_flexible: None };
-    job::run(order, &mut ()).unwrap()
+    let settings = Settings { joint, effort, ..Settings::new(template.clone()) };
+    fabricate(draft, settings, &mut ()).unwrap()
 }
 
 fn source(template: &Template, joint: Joint) -> Source<'_> {
@@ -33,7 +34,7 @@ fn source(template: &Template, joint: Joint) -> Source<'_> {
     }
 }
 
-fn page_of(job: &Job, source: &Source, is_approved: bool) -> String {
+fn page_of(job: &Fabrication, source: &Source, is_approved: bool) -> String {
     let manifest = report::manifest(job, source);
     report::page(&Page { job, source, manifest: &manifest, proof: None, is_approved })
 }
@@ -112,7 +113,7 @@ fn the_page_of_a_refused_job_says_so_and_shows_what_there_is() {
     // Its axes are too short for eight plates, but the fins are there to be looked at.
     assert!(page.contains("parts::axis_too_short"));
     assert!(scene(&page)["fins"].as_array().unwrap().iter().all(|fin| fin[2] != -1));
-    let nothing = Job::default();
+    let nothing = Fabrication::new(Settings::new(template.clone()));
     let page = page_of(&nothing, &source(&template, Joint::Lap), false);
     assert!(page.contains("There is no structure to show."));
 }
@@ -145,5 +146,6 @@ fn the_guide_has_a_figure_for_each_step_and_names_each_part() {
         let named = words.iter().filter(|word| **word == part.id).count();
         assert!(named >= 2, "{} is named {named} times", part.id);
     }
-    assert!(report::guide(&Job::default(), &source(&template, Joint::Lap)).is_none());
+    let nothing = Fabrication::new(Settings::new(template.clone()));
+    assert!(report::guide(&nothing, &source(&template, Joint::Lap)).is_none());
 }

@@ -1,9 +1,10 @@
 //! Structures made here and not in the crate, each torsion-free by construction, and jobs
 //! made of them.
 
+use finwright::fabrication::{Fabrication, fabricate};
 use finwright::geometry::{Point3, Vector3};
-use finwright::job::{self, Job, Order};
 use finwright::nest::Effort;
+use finwright::settings::Settings;
 use finwright::structure::Draft;
 use finwright::template::{self, Template};
 use proptest::prelude::{Just, Strategy, prop_oneof};
@@ -15,11 +16,10 @@ pub(crate) fn material(name: &str) -> Template {
 }
 
 /// The job of a draft; its structure must be one.
-pub(crate) fn made(draft: Draft, template: &Template) -> Job {
+pub(crate) fn made(draft: Draft, template: &Template) -> Fabrication {
     let effort = Effort { trials: 1, seed: 0 };
-    let joint = finwright::joint::Joint::Lap;
-    let order = Order { draft, template, joint, effort, accepted_flexible: None };
-    let job = job::run(order, &mut ()).expect("nobody stops it");
+    let settings = Settings { effort, ..Settings::new(template.clone()) };
+    let job = fabricate(draft, settings, &mut ()).expect("nobody stops it");
     assert!(job.structure.is_some(), "{:?}", job.findings);
     job
 }

@@ -3,8 +3,8 @@
 
 use crate::structures::{made, material, triangles};
 use finwright::design::examples;
+use finwright::fabrication::Fabrication;
 use finwright::geometry::{Point3, Vector3};
-use finwright::job::Job;
 use finwright::parts::Body;
 use finwright::structure::{Draft, Structure};
 use finwright::tolerance::Tolerance;
@@ -24,7 +24,7 @@ struct Sizes {
 }
 
 impl Sizes {
-    fn of(job: &Job) -> Self {
+    fn of(job: &Fabrication) -> Self {
         let bodies = || {
             job.parts.iter().filter_map(|part| match &part.body {
                 Body::Strip(body) => Some(body),

@@ -12,7 +12,7 @@ use crate::design::planarise::energy::{Energy, Feet, State};
 use crate::design::planarise::matrix::{Factor, NormalMatrix, SIZE};
 use crate::geometry::Vector3;
 use crate::tolerance::{LEAST_DAMPING, PLANAR};
-use crate::watch::Watch;
+use crate::watch::{Stopped, Watch};
 
 /// Damping to begin with, and the most it is eased by one step.
 const FIRST_DAMPING: f64 = 0.001;
@@ -57,8 +57,14 @@ pub(super) struct Found {
 /// Why the search did not end.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Broken {
-    Interrupted,
+    Stopped(Stopped),
     TooLarge,
+}
+
+impl From<Stopped> for Broken {
+    fn from(stopped: Stopped) -> Self {
+        Self::Stopped(stopped)
+    }
 }
 
 /// Nodes and axes with what is known about them.
@@ -175,9 +181,7 @@ impl Search<'_> {
         let mut shifted = 0.0;
         while self.damping <= MOST_DAMPING {
             self.watch.progress("planarise", self.history.len(), self.most);
-            if self.watch.stopped() {
-                return Err(Broken::Interrupted);
-            }
+            self.watch.unless_stopped()?;
             self.matrix.shift(self.damping - shifted);
             shifted = self.damping;
             let mut change: Vec<f64> = pull.iter().map(|pull| -pull).collect();

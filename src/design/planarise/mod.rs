@@ -35,7 +35,7 @@ use crate::diagnostic::Finding;
 use crate::geometry::Mesh;
 use crate::ids::{FaceId, NodeId};
 use crate::structure::{Draft, Refused, SoundDraft};
-use crate::watch::Watch;
+use crate::watch::{Stopped, Watch};
 
 /// A mesh whose fins are as plane as they could be made.
 #[derive(Debug, Clone, PartialEq)]
@@ -52,20 +52,20 @@ pub struct Planarised {
 
 /// Why there is no result.
 #[derive(Debug, Clone, PartialEq)]
-pub enum Stopped {
+pub enum PlanariseError {
     /// The watch stopped the work.
-    Interrupted,
+    Stopped(Stopped),
     /// The mesh has faults that must be mended first.
     Refused(Vec<Finding>),
 }
 
-impl From<Refused> for Stopped {
+impl From<Refused> for PlanariseError {
     fn from(refused: Refused) -> Self {
         Self::Refused(refused.findings)
     }
 }
 
-impl From<DesignFinding> for Stopped {
+impl From<DesignFinding> for PlanariseError {
     fn from(fact: DesignFinding) -> Self {
         Self::Refused(vec![fact.into()])
     }
@@ -78,14 +78,14 @@ impl From<DesignFinding> for Stopped {
 /// rounding.
 ///
 /// # Errors
-/// [`Stopped::Refused`] with all findings if the mesh is no oriented surface (flipped faces,
+/// [`PlanariseError::Refused`] with all findings if the mesh is no oriented surface (flipped faces,
 /// one-sided, fans that meet in a point) or has faults of its own;
-/// [`Stopped::Interrupted`] if the watch stopped the work.
+/// [`PlanariseError::Stopped`] if the watch stopped the work.
 pub fn planarise(
     draft: Draft,
     options: &Options,
     watch: &mut dyn Watch,
-) -> Result<Planarised, Stopped> {
+) -> Result<Planarised, PlanariseError> {
     planarise_sound(SoundDraft::new(draft)?, options, watch)
 }
 
@@ -94,7 +94,7 @@ fn planarise_sound(
     sound: SoundDraft,
     options: &Options,
     watch: &mut dyn Watch,
-) -> Result<Planarised, Stopped> {
+) -> Result<Planarised, PlanariseError> {
     let (draft, mesh) = (sound.draft(), sound.mesh());
     must_be_a_surface(mesh)?;
     let given = State {
@@ -111,7 +111,7 @@ fn planarise_sound(
     if before.worst > options.target {
         let found = descend(&mut task.energy, options.target, options.steps, watch);
         let found = found.map_err(|broken| match broken {
-            Broken::Interrupted => Stopped::Interrupted,
+            Broken::Stopped(stopped) => PlanariseError::Stopped(stopped),
             Broken::TooLarge => DesignFinding::TooLarge { fins: fins.len() }.into(),
         })?;
         result = task.placed(&given, &found.state);

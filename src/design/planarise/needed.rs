@@ -2,16 +2,16 @@
 
 use crate::design::planarise::finding::DesignFinding;
 use crate::design::planarise::options::Options;
-use crate::design::planarise::{Stopped, planarise_sound};
+use crate::design::planarise::{PlanariseError, planarise_sound};
 use crate::diagnostic::Finding;
 use crate::structure::{Draft, SoundDraft, planarity};
-use crate::watch::Watch;
+use crate::watch::{Stopped, Watch};
 
 /// The draft as it is if its fins are plane to [`Options::target`] or if it is no structure
 /// at all (which others say); else planarised, with what has to be said about it.
 ///
 /// # Errors
-/// [`Stopped::Interrupted`] if the watch stopped the work, never the other.
+/// [`Stopped`] if the watch stopped the work.
 pub fn planarised_if_needed(
     draft: Draft,
     options: &Options,
@@ -26,8 +26,8 @@ pub fn planarised_if_needed(
     let all = draft.fin_pairs().len();
     let planarised = match planarise_sound(sound, options, watch) {
         Ok(planarised) => planarised,
-        Err(Stopped::Refused(findings)) => return Ok((draft, findings)),
-        Err(Stopped::Interrupted) => return Err(Stopped::Interrupted),
+        Err(PlanariseError::Refused(findings)) => return Ok((draft, findings)),
+        Err(PlanariseError::Stopped(stopped)) => return Err(stopped),
     };
     let figures = planarised.figures;
     let mut facts = Vec::new();

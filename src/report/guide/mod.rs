@@ -2,8 +2,8 @@
 
 mod leaf;
 
+use crate::fabrication::Fabrication;
 use crate::geometry::{Point2, Vector2};
-use crate::job::Job;
 use crate::parts::Body;
 use crate::report::fins;
 use crate::report::manifest::Source;
@@ -29,7 +29,7 @@ const NEW_EDGE: [f32; 3] = [0.72, 0.3, 0.0];
 const STANDING: [f32; 3] = [0.93, 0.95, 0.96];
 
 /// The guide of a job; `None` if nothing is to be assembled.
-pub fn guide(job: &Job, source: &Source) -> Option<Vec<u8>> {
+pub fn guide(job: &Fabrication, source: &Source) -> Option<Vec<u8>> {
     let structure = job.structure.as_ref()?;
     let steps = steps(job, source.template);
     if steps.is_empty() {
@@ -71,7 +71,7 @@ fn corner(place: usize) -> Point2 {
 }
 
 struct Figure<'a> {
-    job: &'a Job,
+    job: &'a Fabrication,
     picture: &'a Picture,
     standing: &'a [usize],
 }
@@ -148,7 +148,7 @@ const NO_STRESS: &str = "Put nothing under stress that was cleaned with alcohol 
     acrylic crazes. Work on a flat board, and dry-fit before you glue.";
 
 /// What it is and how to read it.
-fn title(job: &Job, source: &Source, steps: usize) -> Leaf {
+fn title(job: &Fabrication, source: &Source, steps: usize) -> Leaf {
     let mut leaf = Leaf::new();
     let name = job.structure.as_ref().map_or("", |structure| structure.name());
     let size = job.structure.as_ref().map(|s| s.size_text()).unwrap_or_default();
@@ -191,7 +191,7 @@ fn title(job: &Job, source: &Source, steps: usize) -> Leaf {
 }
 
 /// The finished structure at the foot of the title.
-fn whole(job: &Job, leaf: &mut Leaf) {
+fn whole(job: &Fabrication, leaf: &mut Leaf) {
     let Some(structure) = &job.structure else { return };
     let room = Vector2::new(SIZE[0] - 2.0 * MARGIN, SIZE[1] / 2.0);
     let [width, height] = Picture::new(job, structure, room.x).size;
@@ -203,7 +203,7 @@ fn whole(job: &Job, leaf: &mut Leaf) {
 }
 
 /// The parts with their sizes and sheets.
-fn list(job: &Job, steps: &[Step]) -> Vec<Leaf> {
+fn list(job: &Fabrication, steps: &[Step]) -> Vec<Leaf> {
     const COLUMNS: [f64; 5] = [0.0, 20.0, 50.0, 80.0, 105.0];
     let sheets = fins::sheets(job);
     let rows = job.parts.iter().enumerate().map(|(index, part)| {

@@ -1,6 +1,6 @@
 //! The steps of assembly with a picture each.
 
-use crate::job::Job;
+use crate::fabrication::Fabrication;
 use crate::report::page::html;
 use crate::report::picture::Picture;
 use crate::report::steps::{Step, standing};
@@ -10,7 +10,7 @@ use std::fmt::Write;
 const WIDTH: f64 = 400.0;
 
 /// The steps as figures; their pictures share one drawing of each part.
-pub(super) fn steps(job: &Job, steps: &[Step]) -> String {
+pub(super) fn steps(job: &Fabrication, steps: &[Step]) -> String {
     let Some(structure) = &job.structure else { return String::new() };
     if steps.is_empty() {
         return "<p>There are no parts to assemble.</p>\n".to_owned();
@@ -24,7 +24,7 @@ pub(super) fn steps(job: &Job, steps: &[Step]) -> String {
 }
 
 /// Each part once, as a path.
-fn drawings(job: &Job, picture: &Picture) -> String {
+fn drawings(job: &Fabrication, picture: &Picture) -> String {
     let mut paths = vec![String::new(); job.parts.len()];
     for panel in &picture.panels {
         let at =
@@ -40,7 +40,7 @@ fn drawings(job: &Job, picture: &Picture) -> String {
 }
 
 fn figure(
-    job: &Job,
+    job: &Fabrication,
     picture: &Picture,
     step: &Step,
     (k, shown): (usize, &[usize]),

@@ -1,7 +1,7 @@
 //! The sheets as drawings inside the page: each part is a group of its own.
 
+use crate::fabrication::Fabrication;
 use crate::geometry::Point2;
-use crate::job::Job;
 use crate::report::page::html;
 use crate::sheets::{Operation, Path, Sheet};
 use std::fmt::Write;
@@ -10,12 +10,12 @@ use std::fmt::Write;
 const SEEN_MM: f64 = 0.02;
 
 /// All sheets, each with a caption.
-pub(super) fn sheets(job: &Job) -> String {
+pub(super) fn sheets(job: &Fabrication) -> String {
     let sheets = job.sheets.iter().enumerate();
     sheets.map(|(index, sheet)| figure(job, index, sheet)).collect()
 }
 
-fn figure(job: &Job, index: usize, sheet: &Sheet) -> String {
+fn figure(job: &Fabrication, index: usize, sheet: &Sheet) -> String {
     let parts = job.layout.sheets.get(index).map_or(0, |nested| nested.placements.len());
     let (width, height) = (sheet.width, sheet.height);
     let id = html::text(&sheet.id);
@@ -29,7 +29,7 @@ fn figure(job: &Job, index: usize, sheet: &Sheet) -> String {
 }
 
 /// One group per part: its marks, holes and outline.
-fn groups(job: &Job, sheet: &Sheet) -> String {
+fn groups(job: &Fabrication, sheet: &Sheet) -> String {
     let mut text = String::new();
     let mut parts: Vec<usize> = sheet.strokes.iter().map(|stroke| stroke.part).collect();
     parts.sort_unstable();

@@ -13,7 +13,7 @@ mod scene;
 mod sections;
 
 use crate::diagnostic::Finding;
-use crate::job::Job;
+use crate::fabrication::Fabrication;
 use crate::proof::Proof;
 use crate::report::manifest::Source;
 use crate::report::steps;
@@ -23,7 +23,7 @@ use serde_json::Value;
 #[derive(Clone, Copy)]
 pub struct Page<'a> {
     /// The job.
-    pub job: &'a Job,
+    pub job: &'a Fabrication,
     /// Where it came from.
     pub source: &'a Source<'a>,
     /// Its manifest, as written.

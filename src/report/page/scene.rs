@@ -1,7 +1,7 @@
 //! The structure as numbers for the 3D view of the page.
 
+use crate::fabrication::Fabrication;
 use crate::geometry::{Point3, Vector3};
-use crate::job::Job;
 use crate::joint::Joint;
 use crate::parts::{Body, bends};
 use crate::report::{fins, steps};
@@ -13,7 +13,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 /// What the page's script needs to know.
 pub(super) fn scene(
-    job: &Job,
+    job: &Fabrication,
     structure: &Structure,
     joint: Joint,
     template: &Template,
@@ -60,7 +60,7 @@ pub(super) fn scene(
 }
 
 /// The parts in the order of assembly; of a step its connector last.
-fn order(job: &Job, template: &Template) -> Vec<usize> {
+fn order(job: &Fabrication, template: &Template) -> Vec<usize> {
     let steps = steps::steps(job, template);
     let mut order: Vec<usize> =
         steps.into_iter().flat_map(|step| step.parts.into_iter().rev()).collect();
@@ -82,7 +82,7 @@ fn discrepancies(paper: &Paper) -> BTreeMap<(usize, usize), f64> {
 }
 
 /// Thickness over bend radius by part and node.
-fn tightness(job: &Job, template: &Template) -> BTreeMap<(usize, usize), f64> {
+fn tightness(job: &Fabrication, template: &Template) -> BTreeMap<(usize, usize), f64> {
     let mut all = BTreeMap::new();
     for (index, part) in job.parts.iter().enumerate() {
         let Body::Strip(body) = &part.body else { continue };

@@ -1,8 +1,8 @@
 //! What the page says in words and tables.
 
 use crate::diagnostic::{Finding, Severity};
+use crate::fabrication::Fabrication;
 use crate::geometry::Contour;
-use crate::job::Job;
 use crate::joint::Joint;
 use crate::parts::{Body, Opening};
 use crate::report::connectors::hardware;
@@ -34,7 +34,7 @@ pub(super) fn summary(page: &Page) -> String {
 }
 
 /// Rigid or not, and what that means in millimetres.
-pub(super) fn verdict(job: &Job, joint: Joint) -> String {
+pub(super) fn verdict(job: &Fabrication, joint: Joint) -> String {
     let Some(verdict) = &job.verdict else {
         return "<p>It was not judged: other faults come first.</p>\n".to_owned();
     };
@@ -44,7 +44,7 @@ pub(super) fn verdict(job: &Job, joint: Joint) -> String {
         html::text(meaning(verdict.outcome())),
         html::text(verdict.summary().trim_start_matches(name).trim_start_matches(": "))
     );
-    if let Some(reason) = &job.accepted_flexible {
+    if let Some(reason) = &job.settings.accepted_flexible {
         let reason = html::text(reason);
         text += &format!("<p>Accepted as flexible on purpose: <q>{reason}</q></p>\n");
     }
@@ -128,7 +128,7 @@ fn finding(finding: &Finding) -> Vec<String> {
 /// What to buy.
 pub(super) fn order(page: &Page) -> String {
     let material = &page.source.template.material;
-    let stock = page.job.stock.iter().enumerate();
+    let stock = page.job.settings.stock.iter().enumerate();
     let rows = stock.filter_map(|(index, sheet)| {
         let used = page.job.layout.sheets.iter().filter(|s| s.stock == index).count();
         let size =

@@ -10,6 +10,7 @@ use crate::rigidity::compliance::compliances;
 use crate::rigidity::mobility::mobility;
 use crate::rigidity::spectrum::{by_inverse, dense, least};
 use crate::rigidity::system::System;
+use crate::watch::Stopped;
 use nets::{
     combescure, ellipsoid, held_all_round, parallel, parallel_by, radial, radial_by,
     torus,
@@ -318,7 +319,7 @@ fn what_cannot_be_solved_is_no_verdict() {
 /// Stops after so many questions.
 struct Impatient(std::cell::Cell<usize>);
 
-impl crate::watch::Watch for Impatient {
+impl Watch for Impatient {
     fn progress(&mut self, _stage: &'static str, _done: usize, _total: usize) {}
 
     fn stopped(&self) -> bool {

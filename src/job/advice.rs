@@ -6,12 +6,11 @@
 //! for other reasons; the search ends below that.)
 
 use crate::diagnostic::{Finding, Severity};
-use crate::job::{self, Interrupted, Order};
-use crate::joint::Joint;
+use crate::fabrication::fabricate;
 use crate::nest::Effort;
+use crate::settings::Settings;
 use crate::structure::Draft;
-use crate::template::Template;
-use crate::watch::Watch;
+use crate::watch::{Stopped, Watch};
 use std::collections::BTreeMap;
 
 /// One scale that was tried.
@@ -49,10 +48,8 @@ impl Advice {
 pub struct Question<'a> {
     /// The structure, mm at the scale that was typed.
     pub draft: &'a Draft,
-    /// Material, stock and joint.
-    pub template: &'a Template,
-    /// How fins are joined.
-    pub joint: Joint,
+    /// What it is made with.
+    pub settings: &'a Settings,
     /// Depth below and above in mm of the model, if it does not scale along.
     pub depth: Option<[f64; 2]>,
 }
@@ -69,11 +66,11 @@ const HALVINGS: u32 = 4;
 /// Looks for the smallest scale that passes, in steps from the one given.
 ///
 /// # Errors
-/// [`Interrupted`] if the watch stopped the work.
+/// [`Stopped`] if the watch stopped the work.
 pub fn smallest_scale(
     question: &Question,
     watch: &mut dyn Watch,
-) -> Result<Advice, Interrupted> {
+) -> Result<Advice, Stopped> {
     let mut tried = vec![question.at(1.0, watch)?];
     let passes = |tried: &Tried| tried.fails.is_empty();
     let down = passes(&tried[0]);
@@ -102,19 +99,14 @@ pub fn smallest_scale(
 }
 
 impl Question<'_> {
-    fn at(&self, factor: f64, watch: &mut dyn Watch) -> Result<Tried, Interrupted> {
+    fn at(&self, factor: f64, watch: &mut dyn Watch) -> Result<Tried, Stopped> {
         let mut draft = self.draft.clone().scaled(factor);
         if let Some([below, above]) = self.depth {
             draft = draft.with_depth(below, above);
         }
-        let order = Order {
-            draft,
-            template: self.template,
-            joint: self.joint,
-            effort: Effort { trials: 1, seed: 0 },
-            accepted_flexible: None,
-        };
-        let job = job::run(order, watch)?;
+        let effort = Effort { trials: 1, seed: 0 };
+        let settings = Settings { effort, ..self.settings.clone() };
+        let job = fabricate(draft, settings, watch)?;
         let mut fails: BTreeMap<String, (usize, Finding)> = BTreeMap::new();
         for finding in job.findings.into_iter().filter(|f| f.severity == Severity::Error)
         {

@@ -1,34 +1,22 @@
 //! Single parts again: what broke or went missing, on a sheet of its own.
 
-use crate::job::{Interrupted, Job, on_sheets};
-use crate::nest::{Effort, Layout};
+use crate::fabrication::Fabrication;
+use crate::job::error::NoSuchPart;
+use crate::nest::Layout;
 use crate::parts::{Body, steps};
-use crate::template::{Template, nearest};
-use crate::watch::Watch;
-use miette::Diagnostic;
+use crate::template::nearest;
+use crate::watch::{Stopped, Watch};
 use std::collections::BTreeSet;
-use thiserror::Error;
-
-/// A part that was asked for and is not there.
-#[derive(Debug, Clone, PartialEq, Eq, Error, Diagnostic)]
-#[error("there is no part {found}")]
-#[diagnostic(
-    code(job::no_such_part),
-    help("the nearest name is {nearest}; parts.csv lists them all")
-)]
-pub struct NoSuchPart {
-    /// As typed.
-    pub found: String,
-    /// The name most like it.
-    pub nearest: String,
-}
 
 /// The names of a job's parts that are meant, whatever case they were typed in; the name of
 /// a strip that was spliced means all its pieces.
 ///
 /// # Errors
 /// The first name that no part has.
-pub fn named(job: &Job, names: &[String]) -> Result<Vec<String>, NoSuchPart> {
+pub(super) fn named(
+    job: &Fabrication,
+    names: &[String],
+) -> Result<Vec<String>, NoSuchPart> {
     let mut all = Vec::new();
     for found in names.iter().map(|name| name.trim()) {
         let known = || job.parts.iter().map(|part| part.id.as_str());
@@ -48,18 +36,16 @@ pub fn named(job: &Job, names: &[String]) -> Result<Vec<String>, NoSuchPart> {
     Ok(all)
 }
 
-/// The job with these parts only, nested anew. Structure, verdict and findings stay, but
-/// for those about the layout of all.
+/// Keeps these parts only and nests them anew. Structure, verdict and findings stay, but for
+/// those about the layout of all.
 ///
 /// # Errors
-/// [`Interrupted`] if the watch stopped the work.
-pub fn only(
-    mut job: Job,
+/// [`Stopped`] if the watch stopped the work.
+pub(super) fn keep(
+    job: &mut Fabrication,
     names: Vec<String>,
-    template: &Template,
-    effort: &Effort,
     watch: &mut dyn Watch,
-) -> Result<Job, Interrupted> {
+) -> Result<(), Stopped> {
     let name = job.structure.as_ref().map(|structure| structure.name().to_owned());
     let name = format!("{}: only {}", name.unwrap_or_default(), names.join(" "));
     job.parts.retain(|part| names.contains(&part.id));
@@ -69,5 +55,5 @@ pub fn only(
     job.findings.retain(|finding| !finding.code.starts_with("nest::"));
     job.layout = Layout::default();
     job.only = names;
-    on_sheets(job, template, name, effort, watch)
+    job.lay_on_sheets(name, watch)
 }

@@ -1,27 +1,20 @@
 //! What is said on the terminal: findings, progress, a summary. All of it on stderr.
 
+pub(super) use crate::cli::flags::Console;
 use crate::diagnostic::{Finding, Severity};
 use crate::structure::Structure;
 use crate::watch::Watch;
 use indicatif::{ProgressBar, ProgressStyle};
 use std::io::{IsTerminal, Write};
+use std::num::NonZeroUsize;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
-/// How much is said.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) struct Voice {
-    /// Only what went wrong.
-    pub quiet: bool,
-    /// Every finding.
-    pub verbose: bool,
-}
-
 /// Findings of one kind that are shown before the rest is only counted.
 const FEW: usize = 3;
 
-impl Voice {
+impl Console {
     /// Says a line unless told to be quiet.
     pub(super) fn say(self, line: &str) {
         if !self.quiet {
@@ -88,31 +81,26 @@ fn title(severity: Severity) -> String {
 pub(super) struct Terminal {
     bar: ProgressBar,
     stop: Arc<AtomicBool>,
+    threads: Option<NonZeroUsize>,
     until: Option<Instant>,
 }
 
 impl Terminal {
     /// Shows progress unless told to be quiet; Ctrl-C stops it from here on. A search is
     /// content with what it has after `limit` seconds.
-    pub(super) fn new(voice: Voice, limit: Option<f64>) -> Self {
+    pub(super) fn new(console: Console, limit: Option<f64>) -> Self {
         let stop = Arc::new(AtomicBool::new(false));
         let switch = Arc::clone(&stop);
         // Without a handler Ctrl-C just ends the process, and nothing has been written then.
         let _ = ctrlc::set_handler(move || switch.store(true, Ordering::Relaxed));
-        let bar = if voice.quiet { ProgressBar::hidden() } else { ProgressBar::new(1) };
+        let bar = if console.quiet { ProgressBar::hidden() } else { ProgressBar::new(1) };
         if let Ok(style) =
             ProgressStyle::with_template("{msg:10} {wide_bar} {pos}/{len} {prefix}")
         {
             bar.set_style(style);
         }
         let until = limit.map(|limit| Instant::now() + Duration::from_secs_f64(limit));
-        Self { bar, stop, until }
-    }
-
-    /// Shows the bar again for one more stage.
-    pub(super) fn resume(&mut self, stage: &'static str) {
-        self.bar.reset();
-        self.progress(stage, 0, 1);
+        Self { bar, stop, threads: console.threads, until }
     }
 
     /// Says beside the bar what has been found.
@@ -137,6 +125,10 @@ impl Watch for Terminal {
 
     fn stopped(&self) -> bool {
         self.stop.load(Ordering::Relaxed)
+    }
+
+    fn threads(&self) -> usize {
+        self.threads.map_or_else(|| ().threads(), NonZeroUsize::get)
     }
 
     fn enough(&self) -> bool {

@@ -1,14 +1,15 @@
-//! What was typed after `finwright planarise`.
+//! `planarise`.
 
-use crate::cli::args::{Depth, Fix, axis_rule, depth, fix, numbers};
-use crate::cli::input::{self, Input};
+use crate::cli::flags::value::{axis_rule, depth, fix, numbers};
 use crate::design::planarise::{Options, WISHES, Weights, Wish};
+use crate::job::{Depth, Fix};
 use crate::structure::AxisRule;
 use crate::units::Unit;
 use clap::{Arg, ArgMatches, Args, Command, FromArgMatches, ValueEnum};
 use std::path::PathBuf;
 
-pub(in crate::cli) const PLANARISE_HELP: &str = "\
+/// Shown after the help of `planarise`.
+pub(super) const HELP: &str = "\
 Examples:
   finwright planarise roof.obj --units m -o roof.json --picture roof.png
       fins on all inner edges, from vertex normals; a picture of planarity before and after
@@ -120,7 +121,7 @@ pub struct PlanariseArgs {
 
 /// An option for each wish.
 #[derive(Debug, Clone)]
-pub struct WeightArgs(Weights);
+pub struct WeightArgs(pub(in crate::cli) Weights);
 
 impl Args for WeightArgs {
     fn augment_args(command: Command) -> Command {
@@ -170,22 +171,5 @@ fn positive(text: &str) -> Result<f64, String> {
     match numbers(text)?.as_slice() {
         &[number] if number > 0.0 => Ok(number),
         _ => Err(format!("{text:?} is no number above zero")),
-    }
-}
-
-/// What was chosen.
-pub(super) fn options(args: &PlanariseArgs, input: &Input) -> Options {
-    let held = |fix: &Option<Fix>| {
-        fix.as_ref().map_or_else(Vec::new, |fix| input::nodes(fix, &input.draft))
-    };
-    Options {
-        boundary_fins: args.boundary_fins,
-        fixed_nodes: held(&args.hold),
-        fixed_axes: held(&args.hold_axes),
-        weights: args.weights.0.clone(),
-        target: args.target / 100.0,
-        tilt_limit: args.tilt_limit.to_radians(),
-        move_limit: args.move_limit,
-        steps: args.steps,
     }
 }
