@@ -1,7 +1,11 @@
 //! How strips and fins are joined.
 
+use serde::{Deserialize, Serialize};
+
 /// How strips and fins are joined on the node axes.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+#[serde(rename_all = "lowercase")]
 pub enum Joint {
     /// Rigid strips, half-lapped where they cross.
     #[default]

@@ -6,6 +6,7 @@ use crate::cli::input;
 use crate::cli::jobdir::{self, JobDirError};
 use crate::cli::outcome::{End, Failure, print};
 use crate::job;
+use crate::json;
 use crate::parts::{CouponMark, Fitted};
 use crate::settings::Settings;
 use crate::template::{self, Template};
@@ -31,7 +32,7 @@ fn make(args: &CouponArgs, template: Template, console: Console) -> Result<End, 
     console.findings(&job.proof_findings);
     jobdir::write(&dir, &job.files)?;
     if args.json {
-        print(&format!("{}\n", job.manifest));
+        print(&json::line(&job.manifest).map_err(Failure::of)?);
     }
     console.say(&format!("{} pieces in {}", job.fabrication.parts.len(), dir.display()));
     Ok(job.end.into())

@@ -7,6 +7,7 @@ use crate::cli::input;
 use crate::cli::jobdir;
 use crate::cli::outcome::{End, Failure, print};
 use crate::job::{self, Job, Specification};
+use crate::json;
 use crate::structure::Structure;
 use std::path::Path;
 
@@ -38,7 +39,7 @@ pub(super) fn run(args: &MakeArgs, console: Console) -> Result<End, Failure> {
         jobdir::write(&dir, &job.files)?;
     }
     if args.input.json {
-        print(&format!("{}\n", job.manifest));
+        print(&json::line(&job.manifest).map_err(Failure::of)?);
     }
     if let (job::End::Refused, Some(verdict)) = (job.end, &made.verdict) {
         verdict.remedies_in_words().iter().for_each(|line| console.say(line));

@@ -12,6 +12,7 @@ use crate::cli::outcome::{End, Failure, print};
 use crate::diagnostic::{Finding, Located, Severity};
 use crate::export::{self, PngLook};
 use crate::gate::approve_loose;
+use crate::json;
 use crate::nest::{self, Effort, Found, NestError, Shape, Stock};
 use crate::proof::{Format, drawn_parts};
 use crate::report::{Nested, free_maps, layout_json, layout_sheets};
@@ -148,7 +149,7 @@ fn deliver(
 ) -> Result<(), Failure> {
     let manifest = layout_json(&order.name, &order.shapes, &order.stock, nested);
     let sheets = layout_sheets(&order.shapes, &order.stock, &nested.layout, &order.lines);
-    let text = format!("{manifest:#}\n");
+    let text = json::text(&manifest).map_err(Failure::of)?;
     let mut files = vec![("layout.json".to_owned(), text.into_bytes())];
     if let Some(approved) =
         approve_loose(&sheets, &[]).filter(|sheets| !sheets.get().is_empty())
@@ -163,7 +164,7 @@ fn deliver(
     }
     jobdir::write(dir, &files)?;
     if args.json {
-        print(&format!("{manifest}\n"));
+        print(&json::line(&manifest).map_err(Failure::of)?);
     }
     Ok(())
 }

@@ -10,6 +10,7 @@ use crate::cli::outcome::{End, Failure, check_json, complain, print};
 use crate::diagnostic::Finding;
 use crate::fabrication;
 use crate::joint::Joint;
+use crate::json;
 use crate::rigidity::{
     self, Criteria, Fingerprint, Look, MOST_PAIRED, MOST_STEPS, Model, Pairing,
     RigidityFinding, SwayLimit, Verdict,
@@ -59,7 +60,7 @@ pub(super) fn run(args: &RigidityArgs, console: Console) -> Result<End, Failure>
     case.findings.extend(verdict.findings().into_iter().map(Finding::from));
     console.findings(&case.findings);
     if args.input.json {
-        print(&format!("{}\n", verdict.json(case.joint, true)));
+        print(&json::line(&verdict.entry(case.joint, true)).map_err(Failure::of)?);
     }
     if let Some(path) = &args.picture {
         args.draw(path, &case.model, case.structure.as_ref(), &verdict)?;
@@ -93,9 +94,10 @@ impl RigidityArgs {
             ..Look::default()
         };
         let drawn = structure.zip(verdict.paper());
-        let drawn =
-            drawn.and_then(|(s, paper)| rigidity::picture(s, model, paper, &look));
-        let Some(bytes) = drawn else { return Ok(()) };
+        let drawn = drawn.map(|(s, paper)| rigidity::picture(s, model, paper, &look));
+        let Some(bytes) = drawn.transpose().map_err(Failure::of)?.flatten() else {
+            return Ok(());
+        };
         std::fs::write(path, bytes)
             .map_err(|source| JobDirError::Disk { path: path.to_owned(), source }.into())
     }

@@ -4,6 +4,7 @@ use crate::cli::console::Console;
 use crate::cli::flags::verify::VerifyArgs;
 use crate::cli::outcome::{End, Failure, print};
 use crate::diagnostic::passes;
+use crate::json;
 use crate::proof::{JobFiles, Proof, ProofError, prove};
 use miette::Diagnostic;
 use std::path::{Path, PathBuf};
@@ -30,7 +31,7 @@ pub(super) fn run(args: &VerifyArgs, console: Console) -> Result<End, Failure> {
     let proof = verify(&args.job).map_err(Failure::of)?;
     console.findings(&proof.findings);
     if args.json {
-        print(&format!("{}\n", proof.report()));
+        print(&json::line(&proof.report()).map_err(Failure::of)?);
     }
     console.say(&summary(&proof));
     Ok(End::of(&proof.findings))

@@ -17,7 +17,7 @@ mod svg;
 pub use dxf::dxf;
 pub use layer::{LAYERS, Layer};
 pub use pdf::{pdf, pdf_in};
-pub use png::{PngError, PngLook, png};
+pub use png::{PngLook, png};
 pub use svg::{svg, svg_in};
 
 /// Width of a drawn line in SVG and PDF, mm: thin enough to be a cut for every driver.
@@ -26,6 +26,7 @@ const LINE_WIDTH: f64 = 0.025;
 use crate::gate::Approved;
 use crate::geometry::Point2;
 use crate::lettering::letter;
+use crate::picture::PngError;
 use crate::sheets::Sheet;
 use std::panic::resume_unwind;
 

@@ -10,22 +10,11 @@ use tiny_skia::{
 use super::arcs::{Step, steps};
 use super::{LAYERS, Layer};
 use crate::geometry::Point2;
+use crate::picture::{self, PngError, TINTS};
 use crate::sheets::{Operation, Path, Sheet};
 
 /// More pixels than this are not drawn; the scale goes down instead.
 const MOST_PIXELS: f64 = 8e6;
-
-/// Light tints for the parts, neighbours in the list well apart.
-const TINTS: [[u8; 3]; 8] = [
-    [221, 234, 247],
-    [253, 235, 208],
-    [223, 242, 223],
-    [245, 224, 236],
-    [255, 247, 205],
-    [226, 225, 245],
-    [214, 242, 240],
-    [240, 232, 220],
-];
 
 /// How a picture is drawn.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -41,29 +30,6 @@ impl Default for PngLook<'_> {
     fn default() -> Self {
         Self { px_per_mm: 3.0, stamp: &[] }
     }
-}
-
-/// Why there is no picture.
-#[derive(Debug, thiserror::Error, miette::Diagnostic)]
-pub enum PngError {
-    /// The sheet, at the asked scale, has no pixels.
-    #[error("a picture of {width} x {height} mm at {px_per_mm} pixels per mm is empty")]
-    #[diagnostic(
-        code(export::empty_picture),
-        help("sheet and scale must be larger than zero")
-    )]
-    Empty {
-        /// Width of the sheet, mm.
-        width: f64,
-        /// Height of the sheet, mm.
-        height: f64,
-        /// The asked scale.
-        px_per_mm: f64,
-    },
-    /// The picture could not be packed.
-    #[error("the picture could not be written as PNG")]
-    #[diagnostic(code(export::png))]
-    Encoding(#[source] Box<dyn std::error::Error + Send + Sync>),
 }
 
 /// The sheet as a picture: parts tinted, lines in colours a person can read.
@@ -82,7 +48,7 @@ pub fn png(sheet: &Sheet, look: &PngLook<'_>) -> Result<Vec<u8>, PngError> {
         picture.draw_layer(sheet, layer);
     }
     picture.stamp(look.stamp);
-    picture.pixels.encode_png().map_err(|error| PngError::Encoding(error.into()))
+    picture::png(&picture.pixels)
 }
 
 struct Picture {

@@ -1,6 +1,7 @@
 //! Why there is no job.
 
-use crate::export::PngError;
+use crate::json::UnwritableJson;
+use crate::picture::PngError;
 use crate::watch::Stopped;
 use miette::Diagnostic;
 use thiserror::Error;
@@ -19,6 +20,10 @@ pub enum JobError {
     #[error(transparent)]
     #[diagnostic(transparent)]
     Picture(#[from] PngError),
+    /// `job.json` could not be written.
+    #[error(transparent)]
+    #[diagnostic(transparent)]
+    Json(#[from] UnwritableJson),
 }
 
 /// A part that was asked for and is not there.

@@ -19,13 +19,14 @@ use crate::diagnostic::{Finding, passes};
 use crate::export::{self, File};
 use crate::fabrication::{self, Fabrication, fabricate};
 use crate::gate::approve_loose;
+use crate::json::{self, UnwritableJson};
+use crate::manifest::Manifest;
 use crate::proof::{Proof, ProofFinding, Spot, prove};
 use crate::report::{self, Page, Source};
 use crate::settings::Settings;
 use crate::structure::write_json;
 use crate::vendor;
 use crate::watch::{Stopped, Watch};
-use serde_json::{Value, json};
 
 /// What is to be made.
 #[derive(Debug, Clone, PartialEq)]
@@ -63,7 +64,7 @@ pub struct Job {
     /// Found in those files.
     pub proof_findings: Vec<Finding>,
     /// `job.json`.
-    pub manifest: Value,
+    pub manifest: Manifest,
     /// The files of the job directory; none if there is no structure to make parts of.
     pub files: Vec<File>,
 }
@@ -179,13 +180,13 @@ fn written(
     let sha256 = fabrication.settings.template.sha256();
     let mut manifest =
         report::manifest(&fabrication, &source(&fabrication, origin, &sha256));
-    let mut files = lists(&fabrication, &manifest);
+    let mut files = lists(&fabrication, &manifest)?;
     let (mut end, mut proof, mut proof_findings) = (End::Refused, None, Vec::new());
     if let Some(cut) = cut {
         let kept = files.len();
         files.extend(cut);
         (proof, proof_findings) = proved(&files, &mut manifest);
-        files[0] = job_json(&manifest);
+        files[0] = job_json(&manifest)?;
         if passes(&proof_findings) {
             end = End::Approved;
         } else {
@@ -198,26 +199,30 @@ fn written(
     Ok(Job { fabrication, end, proof, proof_findings, manifest, files })
 }
 
-fn job_json(manifest: &Value) -> File {
-    ("job.json".to_owned(), format!("{manifest:#}\n").into_bytes())
+fn job_json(manifest: &Manifest) -> Result<File, UnwritableJson> {
+    Ok(("job.json".to_owned(), json::text(manifest)?.into_bytes()))
 }
 
 /// The lists that stand in every job directory, the manifest first.
-fn lists(fabrication: &Fabrication, manifest: &Value) -> Vec<File> {
+fn lists(
+    fabrication: &Fabrication,
+    manifest: &Manifest,
+) -> Result<Vec<File>, UnwritableJson> {
     let bill = report::bill(fabrication, &fabrication.settings.template.material.name);
-    let mut files = vec![job_json(manifest), ("parts.csv".to_owned(), bill.into_bytes())];
+    let mut files =
+        vec![job_json(manifest)?, ("parts.csv".to_owned(), bill.into_bytes())];
     let structure = fabrication.structure.as_ref().map(write_json);
     files.extend(structure.map(|text| ("structure.json".to_owned(), text.into_bytes())));
-    files
+    Ok(files)
 }
 
 /// What files prove before they are written; the worst figures and what was found go into
 /// their manifest.
-fn proved(files: &[File], manifest: &mut Value) -> (Option<Proof>, Vec<Finding>) {
+fn proved(files: &[File], manifest: &mut Manifest) -> (Option<Proof>, Vec<Finding>) {
     let read = files.iter().filter(|(path, _)| !path.ends_with(".png"));
     let (proof, findings) = match prove(&read.cloned().collect()) {
         Ok(proof) => {
-            manifest["proof"] = proof.summary();
+            manifest.proof = proof.entry();
             let findings = proof.findings.clone();
             (Some(proof), findings)
         }
@@ -226,9 +231,7 @@ fn proved(files: &[File], manifest: &mut Value) -> (Option<Proof>, Vec<Finding>)
             (None, vec![ProofFinding::Unreadable { spot, reason }.into()])
         }
     };
-    if let Some(listed) = manifest["findings"].as_array_mut() {
-        listed.extend(findings.iter().map(|finding| json!(finding)));
-    }
+    manifest.findings.extend(findings.iter().cloned());
     (proof, findings)
 }
 

@@ -5,10 +5,10 @@
 //! parts, such as discs at a height where no fin is notched.
 
 use crate::geometry::{Point2, Vector2};
+use crate::manifest::{ConnectorEntry, ConnectorKind, PartEntry, RunEntry};
 use crate::parts::{Built, Copy, FlatAxis, Form, Hit, Plates, Role, Snug, Tip, together};
 use crate::proof::connectors::Known;
 use crate::proof::finding::{ProofFinding, Spot};
-use crate::proof::manifest::{Connector, Kind, Part, Strip};
 use crate::proof::matching::Found;
 use crate::proof::sheets::Read;
 use crate::structure::Structure;
@@ -28,7 +28,7 @@ pub(super) fn check(
     let of = |found: &Found| {
         let place = &read.matching.places[found.place];
         let part = read.matching.shapes[place.shape].part;
-        let role = match (&part.connector, &part.strip) {
+        let role = match (&part.connector, part.run()) {
             (Some(connector), _) => plates(&known, connector, found, place.copy)?,
             (None, Some(strip)) => fins(structure, part, strip)?,
             (None, None) => return None,
@@ -62,7 +62,11 @@ fn rings(read: &Read, found: &Found) -> Vec<Vec<Point2>> {
 }
 
 /// A fin or strip; `None` if its lists do not fit, which is said elsewhere.
-fn fins<'a>(structure: &Structure, part: &Part, strip: &Strip) -> Option<Role<'a>> {
+fn fins<'a>(
+    structure: &Structure,
+    part: &PartEntry,
+    strip: &RunEntry,
+) -> Option<Role<'a>> {
     if !strip.is_sound(structure.nodes().len()) || strip.nodes.len() < 2 {
         return None;
     }
@@ -85,7 +89,7 @@ fn fins<'a>(structure: &Structure, part: &Part, strip: &Strip) -> Option<Role<'a
 /// One drawn copy of a connector's plates.
 fn plates<'a>(
     known: &Known<'a>,
-    connector: &'a Connector,
+    connector: &'a ConnectorEntry,
     found: &Found,
     copy: usize,
 ) -> Option<Role<'a>> {
@@ -102,8 +106,8 @@ fn plates<'a>(
     let points = || found.outline.vertices.iter().map(|vertex| vertex.point.coords);
     let far = |of: fn(&Vector2) -> f64| points().map(|p| of(&p)).fold(0.0, f64::max);
     let form = match connector.kind {
-        Kind::Hub => Form::Disc { radius: far(|p| p.norm()) },
-        Kind::Hinge => Form::Eye { radius: far(|p| p.y), tail: far(|p| p.x) },
+        ConnectorKind::Hub => Form::Disc { radius: far(|p| p.norm()) },
+        ConnectorKind::Hinge => Form::Eye { radius: far(|p| p.y), tail: far(|p| p.x) },
     };
     let (node, thickness, copies) = (connector.node, connector.thickness, vec![copy]);
     Some(Role::Plates(Plates { node, form, thickness, stands, copies }))

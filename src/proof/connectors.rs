@@ -4,9 +4,9 @@
 //! which may be turned.
 
 use crate::geometry::{Contour, Point2, Vector2, predicates, trig};
-use crate::proof::figures::{Worst, micro};
+use crate::manifest::{ConnectorEntry, ConnectorKind, Manifest, RunEntry, Worst};
+use crate::proof::figures::micro;
 use crate::proof::finding::{ProofFinding, Spot};
-use crate::proof::manifest::{Connector, Kind, Manifest, Strip};
 use crate::proof::matching::Found;
 use crate::proof::sheets::Read;
 use crate::structure::Structure;
@@ -82,10 +82,10 @@ fn nearest<T>(
 fn drawn<'a>(
     read: &Read,
     found: &Found,
-    connector: &Connector,
+    connector: &ConnectorEntry,
     stands: &'a [Stand<'a>],
 ) -> Vec<(Spot, &'a Stand<'a>, f64)> {
-    if connector.kind != Kind::Hub {
+    if connector.kind != ConnectorKind::Hub {
         return Vec::new();
     }
     let windows: Vec<(Contour, f64)> = read
@@ -128,22 +128,22 @@ pub(super) struct Stand<'a> {
 /// What is known of fins and strips by name.
 pub(super) struct Known<'a> {
     structure: &'a Structure,
-    strips: BTreeMap<&'a str, &'a Strip>,
+    strips: BTreeMap<&'a str, &'a RunEntry>,
 }
 
 impl<'a> Known<'a> {
     pub(super) fn new(manifest: &'a Manifest, structure: &'a Structure) -> Self {
         let strips = manifest.parts.iter();
         let strips = strips.filter_map(|part| {
-            let sound = |strip: &&Strip| strip.is_sound(structure.nodes().len());
-            Some((part.id.as_str(), part.strip.as_ref().filter(sound)?))
+            let sound = |strip: &&RunEntry| strip.is_sound(structure.nodes().len());
+            Some((part.id.as_str(), part.run().filter(sound)?))
         });
         Self { structure, strips: strips.collect() }
     }
 
     /// What stands in the slots, in their order; `None` if that is not each fin of the node
     /// once.
-    pub(super) fn stands(&self, connector: &'a Connector) -> Option<Vec<Stand<'a>>> {
+    pub(super) fn stands(&self, connector: &'a ConnectorEntry) -> Option<Vec<Stand<'a>>> {
         let arms = &self.structure.nodes().get(connector.node)?.arms;
         let bearing =
             |to: usize| arms.iter().find(|arm| arm.to == to).map(|arm| arm.angle);

@@ -2,33 +2,6 @@
 
 use serde::Serialize;
 
-/// The worst of everything measured in the files of one format.
-#[derive(Debug, Clone, Default, PartialEq, Serialize)]
-pub struct Worst {
-    /// `dxf`, `svg` or `pdf`; `order ` before it for files that are made for a service.
-    pub format: String,
-    /// Parts found.
-    pub parts: usize,
-    /// Largest distance between the axes of two parts at one node, folded and placed, mm.
-    pub node_gap_mm: f64,
-    /// Largest distance of such an axis from the structure's, mm.
-    pub node_off_mm: f64,
-    /// Largest difference between a fin's corners, flat, and those in the structure, mm.
-    pub fin_mm: f64,
-    /// Largest distance of a slit from where the structure needs it, mm.
-    pub slit_off_mm: f64,
-    /// Least room in a slit beside what comes in, mm; wanted is the clearance.
-    pub slit_play_least_mm: f64,
-    /// Most room in a slit beside what comes in, mm.
-    pub slit_play_most_mm: f64,
-    /// Largest difference between the angle of a slot of a connector and the fin's, degrees.
-    pub slot_deg: f64,
-    /// Largest distance between a drawn outline and the part's shape, mm.
-    pub outline_mm: f64,
-    /// Largest distance of a part from where it is listed, mm.
-    pub moved_mm: f64,
-}
-
 /// A node axis, from the parts that meet there.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct NodeFigure {

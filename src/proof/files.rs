@@ -1,19 +1,15 @@
 //! The drawings of a group of files, format by format.
 
+use crate::manifest::{Manifest, SheetEntry};
 use crate::proof::JobFiles;
 use crate::proof::finding::{ProofFinding, Spot};
-use crate::proof::manifest::{Manifest, Sheet};
 use crate::proof::read::{Drawing, DrawingError, read_dxf, read_pdf, read_svg};
 use crate::proof::sheets::Files;
 
-/// The path of a sheet's file, if the manifest names one.
-type Named = fn(&Sheet) -> Option<&String>;
 type Reader = fn(&[u8]) -> Result<Drawing, DrawingError>;
 
-const SINGLE: [(&str, Named, Reader); 2] = [
-    ("dxf", |sheet| sheet.files.dxf.as_ref(), read_dxf),
-    ("svg", |sheet| sheet.files.svg.as_ref(), read_svg),
-];
+/// Formats with a file for each sheet.
+const SINGLE: [(&str, Reader); 2] = [("dxf", read_dxf), ("svg", read_svg)];
 
 /// The drawings of all formats that the manifest names; what is missing or unreadable is
 /// noted.
@@ -24,12 +20,13 @@ pub(super) fn formats(
     facts: &mut Vec<ProofFinding>,
 ) -> Vec<Files> {
     let mut formats = Vec::new();
-    for (format, named, reader) in SINGLE {
+    for (format, reader) in SINGLE {
+        let named = |sheet: &SheetEntry| sheet.files.get(format).cloned().flatten();
         if manifest.sheets.iter().all(|sheet| named(sheet).is_none()) {
             continue;
         }
         let sheets = manifest.sheets.iter().map(|sheet| {
-            let named = named(sheet).cloned().unwrap_or_default();
+            let named = named(sheet).unwrap_or_default();
             let inside = named.contains('/');
             let path = if inside { named } else { format!("sheets/{named}") };
             let drawing = read(&path, files, reader, facts);
@@ -39,7 +36,7 @@ pub(super) fn formats(
     }
     if let Some(pdf) = pdf {
         let mut pages = read(pdf, files, read_pdf, facts).unwrap_or_default().into_iter();
-        let named = |sheet: &Sheet| format!("{pdf}, page of {}", sheet.id);
+        let named = |sheet: &SheetEntry| format!("{pdf}, page of {}", sheet.id);
         let sheets = manifest.sheets.iter().map(|sheet| (named(sheet), pages.next()));
         formats.push(Files { format: "pdf", sheets: sheets.collect() });
     }

@@ -4,6 +4,7 @@
 use crate::geometry::predicates::contains;
 use crate::geometry::{Point2, Vector2};
 use crate::lettering::letter;
+use crate::manifest::PartEntry;
 use crate::proof::finding::ProofFinding;
 use crate::proof::shape::Edges;
 use crate::proof::sheets::Read;
@@ -130,10 +131,10 @@ impl Read<'_> {
 
 /// The texts a part may be lettered with, the surer one first: strips have an arrow behind
 /// their name.
-fn lettered(part: &crate::proof::manifest::Part) -> [String; 2] {
+fn lettered(part: &PartEntry) -> [String; 2] {
     let label = if part.label.is_empty() { &part.id } else { &part.label };
     let arrow = format!("{label}\u{2191}");
-    if part.strip.is_some() { [arrow, label.clone()] } else { [label.clone(), arrow] }
+    if part.run().is_some() { [arrow, label.clone()] } else { [label.clone(), arrow] }
 }
 
 #[cfg(test)]

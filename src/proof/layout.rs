@@ -2,8 +2,8 @@
 
 use crate::geometry::Point2;
 use crate::geometry::predicates::{self, contains};
+use crate::manifest::StockEntry;
 use crate::proof::finding::{ProofFinding, Spot};
-use crate::proof::manifest::Stock;
 use crate::proof::shape::{Edges, bounds, foot};
 use crate::tolerance::{ARC_SAGITTA_MM, SPACING_SLACK_MM};
 use std::collections::BTreeMap;
@@ -12,7 +12,7 @@ use std::collections::BTreeMap;
 pub(super) struct Laid<'a> {
     pub file: &'a str,
     pub rings: Vec<(String, Vec<Point2>)>,
-    pub stock: &'a Stock,
+    pub stock: &'a StockEntry,
 }
 
 /// How two outlines are to each other, and where.

@@ -7,7 +7,7 @@
 //! hide a part: four tenths of them are enough.
 
 use crate::geometry::{Contour, Point2, Vector2};
-use crate::proof::manifest::{Manifest, Part};
+use crate::manifest::{Manifest, PartEntry};
 use crate::proof::shape::{Edges, Motion, bounds};
 use crate::sheets::Kerf;
 use crate::tolerance::{ARC_SAGITTA_MM, PROOF_REACH_MM, SAME_SHAPE_MM};
@@ -23,7 +23,7 @@ const SAMPLE: usize = 12;
 
 /// A part as listed.
 pub(super) struct Shape<'a> {
-    pub part: &'a Part,
+    pub part: &'a PartEntry,
     /// Edges of the outline and of the holes.
     pub edges: Edges,
     /// Corners of the outline and of the holes.
@@ -33,7 +33,7 @@ pub(super) struct Shape<'a> {
 }
 
 impl<'a> Shape<'a> {
-    pub(super) fn new(part: &'a Part) -> Self {
+    pub(super) fn new(part: &'a PartEntry) -> Self {
         let rings = || std::iter::once(&part.outline).chain(&part.holes);
         let outline = Contour::polygon(part.outline.iter().copied());
         Self {

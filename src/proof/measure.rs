@@ -5,7 +5,7 @@
 //! measured from that axis.
 
 use crate::geometry::{Contour, Point2, Vector2};
-use crate::proof::manifest::{Edge, Slit, Strip};
+use crate::manifest::{OpenEdge, RunEntry, SlitEntry};
 use crate::proof::shape::Edges;
 use crate::tolerance::{NO_LENGTH_MM, PROOF_REACH_MM, SAME_SHAPE_MM};
 
@@ -34,7 +34,11 @@ pub(super) struct Measured {
 }
 
 /// Measures a strip on its outline in part coordinates. `listed` is the outline as listed.
-pub(super) fn measure(strip: &Strip, listed: &[Point2], outline: &Contour) -> Measured {
+pub(super) fn measure(
+    strip: &RunEntry,
+    listed: &[Point2],
+    outline: &Contour,
+) -> Measured {
     let tape = Tape {
         listed: Edges::of_points(listed.iter().copied()),
         corners: Edges::of_points(outline.vertices.iter().map(|vertex| vertex.point)),
@@ -59,13 +63,17 @@ struct Tape<'a> {
 }
 
 impl Tape<'_> {
-    fn axis(&self, strip: &Strip, place: usize) -> Option<FlatAxis> {
+    fn axis(&self, strip: &RunEntry, place: usize) -> Option<FlatAxis> {
         let axis = strip.axes[place];
         let bottom = || self.end(axis.bottom);
         let top = || self.end(axis.top);
         match strip.slit_at(place).map(|slit| slit.from) {
-            Some(Edge::Top) => bottom().map(|off| [axis.bottom + off, axis.top + off]),
-            Some(Edge::Bottom) => top().map(|off| [axis.bottom + off, axis.top + off]),
+            Some(OpenEdge::Top) => {
+                bottom().map(|off| [axis.bottom + off, axis.top + off])
+            }
+            Some(OpenEdge::Bottom) => {
+                top().map(|off| [axis.bottom + off, axis.top + off])
+            }
             None => Some([axis.bottom + bottom()?, axis.top + top()?]),
         }
     }
@@ -98,12 +106,12 @@ impl Tape<'_> {
     }
 
     /// The walls of a slit, by their distance from the axis.
-    fn notch(&self, slit: &Slit, [bottom, top]: FlatAxis) -> Option<Notch> {
+    fn notch(&self, slit: &SlitEntry, [bottom, top]: FlatAxis) -> Option<Notch> {
         let up = (top - bottom).try_normalize(0.0)?;
         let right = Vector2::new(up.y, -up.x);
         let (edge, inward) = match slit.from {
-            Edge::Top => (top, -up),
-            Edge::Bottom => (bottom, up),
+            OpenEdge::Top => (top, -up),
+            OpenEdge::Bottom => (bottom, up),
         };
         let half = slit.width / 2.0;
         let reach = PROOF_REACH_MM.min(half);

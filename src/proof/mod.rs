@@ -20,7 +20,6 @@ mod label;
 mod layout;
 mod lines;
 mod loose;
-mod manifest;
 mod matching;
 mod measure;
 mod outline;
@@ -30,21 +29,20 @@ mod shape;
 mod sheets;
 mod strips;
 
-pub use figures::{NodeFigure, PartFigure, SlitFigure, Worst};
+pub use figures::{NodeFigure, PartFigure, SlitFigure};
 pub use finding::{ProofFinding, Spot};
 pub use loose::{Drawn, DrawnPart, Format, drawn_parts};
 pub use read::DrawingError;
 
-use crate::diagnostic::{Finding, Place};
+use crate::diagnostic::{Finding, Place, passes};
+use crate::manifest::{self, Limits, Manifest, ProofEntry, Worst};
 use crate::structure::{AxisRule, Structure, read_json};
-use crate::tolerance::{PROOF_LIMIT_DEG, PROOF_LIMIT_MM, Tolerance};
+use crate::tolerance::Tolerance;
 use figures::micro;
 use files::formats;
 use lines::differences;
-use manifest::Manifest;
 use miette::Diagnostic;
-use serde::{Deserialize, Serialize};
-use serde_json::{Value, json};
+use serde::Serialize;
 use sha2::{Digest, Sha256};
 use sheets::{Files, Read};
 use std::collections::{BTreeMap, BTreeSet};
@@ -79,22 +77,6 @@ pub enum ProofError {
     Refused,
 }
 
-/// How far what is measured may be off; `job.json` carries them from the template.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-#[serde(default)]
-pub struct Limits {
-    /// Axes, corners of fins, slits, kerf, mm.
-    pub axes_and_slits_mm: f64,
-    /// Folds, degrees.
-    pub folds_deg: f64,
-}
-
-impl Default for Limits {
-    fn default() -> Self {
-        Self { axes_and_slits_mm: PROOF_LIMIT_MM, folds_deg: PROOF_LIMIT_DEG }
-    }
-}
-
 /// What the files of a job prove.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Proof {
@@ -116,24 +98,37 @@ pub struct Proof {
 
 impl Proof {
     /// Limits and the worst figures, for `job.json`.
-    pub fn summary(&self) -> Value {
-        json!({
-            "limits": self.limits,
-            "worst": self.worst,
-            "files": self.files,
-        })
+    pub fn entry(&self) -> ProofEntry {
+        ProofEntry {
+            limits: self.limits,
+            worst: Some(self.worst.clone()),
+            files: Some(self.files.clone()),
+        }
     }
 
     /// Everything, for `verify --json`.
-    pub fn report(&self) -> Value {
-        let mut report = self.summary();
-        report["passes"] = crate::diagnostic::passes(&self.findings).into();
-        report["findings"] = json!(self.findings);
-        report["nodes"] = json!(self.nodes);
-        report["slits"] = json!(self.slits);
-        report["parts"] = json!(self.parts);
-        report
+    pub fn report(&self) -> ProofReport<'_> {
+        ProofReport {
+            entry: self.entry(),
+            passes: passes(&self.findings),
+            findings: &self.findings,
+            nodes: &self.nodes,
+            slits: &self.slits,
+            parts: &self.parts,
+        }
     }
+}
+
+/// All that a proof measured, as `verify --json` prints it.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct ProofReport<'a> {
+    #[serde(flatten)]
+    entry: ProofEntry,
+    passes: bool,
+    findings: &'a [Finding],
+    nodes: &'a [NodeFigure],
+    slits: &'a [SlitFigure],
+    parts: &'a [PartFigure],
 }
 
 /// Paths of the files that a proof reads, as far as a manifest names them.
@@ -151,10 +146,12 @@ pub fn prove(files: &JobFiles) -> Result<Proof, ProofError> {
     let structure = read_structure(files, &manifest)?;
     let mut facts = Vec::new();
     let mut proof = Proof { limits: manifest.proof.limits, ..Proof::default() };
+    let written = manifest.proof.files.as_ref();
     for (path, bytes) in files.iter().filter(|(path, _)| is_proved(path)) {
         let digest: String =
             Sha256::digest(bytes).iter().map(|byte| format!("{byte:02x}")).collect();
-        if manifest.proof.files.get(path).is_some_and(|written| *written != digest) {
+        if written.is_some_and(|files| files.get(path).is_some_and(|was| *was != digest))
+        {
             facts.push(ProofFinding::FileChanged { spot: Spot::file(path) });
         }
         proof.files.insert(path.clone(), digest);
@@ -164,8 +161,8 @@ pub fn prove(files: &JobFiles) -> Result<Proof, ProofError> {
     let structure = structure.as_ref();
     let own = Group { manifest: &manifest, structure, name: "" };
     own.prove(drawn, &mut proof, &mut told);
-    if let Some((manifest, order)) = manifest.of_order() {
-        let pdf = order.pdf.as_deref();
+    if let Some((manifest, vendor)) = manifest.for_vendor() {
+        let pdf = vendor.pdf.as_deref();
         let drawn = formats(&manifest, pdf, files, &mut told.facts);
         // Figures of nodes, slits and parts are those of the job's own files.
         let mut figures = Proof::default();
@@ -253,7 +250,7 @@ fn read_manifest(files: &JobFiles) -> Result<Manifest, ProofError> {
     let bad = |message: String| ProofError::BadFile { file, message };
     let manifest: Manifest =
         serde_json::from_slice(bytes).map_err(|error| bad(error.to_string()))?;
-    if manifest.format != "finwright-job" || manifest.version != 1 {
+    if manifest.format != manifest::FORMAT || manifest.version != manifest::VERSION {
         let found = format!("format {:?}, version {}", manifest.format, manifest.version);
         return Err(bad(found));
     }
@@ -270,7 +267,7 @@ fn read_structure(
     manifest: &Manifest,
 ) -> Result<Option<Structure>, ProofError> {
     let file = "structure.json";
-    if manifest.parts.iter().all(|part| part.strip.is_none()) {
+    if manifest.parts.iter().all(|part| part.run().is_none()) {
         return Ok(None);
     }
     let bytes = files.get(file).ok_or(ProofError::NoFile { file })?;

@@ -1,7 +1,7 @@
 //! Flat axes folded up and placed in space, and where the axes of parts that meet differ.
 
 use crate::geometry::{Point3, Vector3, trig};
-use crate::proof::manifest::Strip;
+use crate::manifest::RunEntry;
 use crate::proof::measure::FlatAxis;
 use crate::structure::Structure;
 use nalgebra::{Isometry3, Matrix3, Rotation3, Translation3, UnitQuaternion};
@@ -12,7 +12,7 @@ pub(super) type Axis = [Point3; 2];
 
 /// The axes of a strip folded at each axis by the listed angle, the first fin in z = 0
 /// with its labelled face up.
-pub(super) fn folded(strip: &Strip, flat: &[FlatAxis]) -> Vec<Axis> {
+pub(super) fn folded(strip: &RunEntry, flat: &[FlatAxis]) -> Vec<Axis> {
     let lifted = |axis: &FlatAxis| axis.map(|p| Point3::new(p.x, p.y, 0.0));
     let mut motion = Isometry3::identity();
     let mut axes = Vec::with_capacity(flat.len());
@@ -20,7 +20,7 @@ pub(super) fn folded(strip: &Strip, flat: &[FlatAxis]) -> Vec<Axis> {
         let [bottom, top] = lifted(axis).map(|p| motion * p);
         axes.push([bottom, top]);
         let inner = place > 0 && place + 1 < flat.len();
-        let fold = strip.folds.iter().find(|fold| fold.node == strip.nodes[place]);
+        let fold = strip.folds().iter().find(|fold| fold.node == strip.nodes[place]);
         if let Some(fold) = fold.filter(|_| inner) {
             // The next fin, toward +x, turns toward the face, +z: about +y by minus the angle.
             motion = turn_about([bottom, top], -fold.angle_deg.to_radians()) * motion;
@@ -62,7 +62,7 @@ pub(super) fn placed(axes: &[Axis], targets: &[Axis]) -> Vec<Axis> {
 }
 
 /// The axes of the nodes of a strip in the structure.
-pub(super) fn targets(structure: &Structure, strip: &Strip) -> Vec<Axis> {
+pub(super) fn targets(structure: &Structure, strip: &RunEntry) -> Vec<Axis> {
     let node = |node: &usize| &structure.nodes()[*node];
     strip.nodes.iter().map(node).map(|node| [node.bottom(), node.top()]).collect()
 }

@@ -1,10 +1,10 @@
 //! The sheets of one format: read, scaled back, matched with what is listed.
 
 use crate::geometry::Point2;
+use crate::manifest::{Manifest, PartEntry};
 use crate::proof::finding::{ProofFinding, Spot};
 use crate::proof::layout::Laid;
 use crate::proof::lines::drawing_findings;
-use crate::proof::manifest::Manifest;
 use crate::proof::matching::{Drawn, Found, Matching, Shape, places};
 use crate::proof::read::Drawing;
 use crate::proof::shape::bounds;
@@ -62,7 +62,7 @@ impl<'a> Read<'a> {
     }
 
     pub(super) fn id(&self, found: &Found) -> &'a str {
-        let part: &'a crate::proof::manifest::Part =
+        let part: &'a PartEntry =
             self.matching.shapes[self.matching.places[found.place].shape].part;
         &part.id
     }

@@ -1,11 +1,11 @@
 //! The strips of one format's files: measured, refolded, compared with the structure.
 
 use crate::geometry::Point2;
+use crate::manifest::{Manifest, RunEntry, SlitEntry, Worst};
 use crate::proof::Limits;
-use crate::proof::figures::{NodeFigure, SlitFigure, Worst, micro};
+use crate::proof::figures::{NodeFigure, SlitFigure, micro};
 use crate::proof::finding::{ProofFinding, Spot};
 use crate::proof::fit;
-use crate::proof::manifest::{Manifest, Slit, Strip};
 use crate::proof::measure::{FlatAxis, Measured, Notch, measure};
 use crate::proof::refold::{Meetings, folded, placed, targets};
 use crate::proof::sheets::Read;
@@ -15,7 +15,7 @@ use std::collections::BTreeMap;
 /// A strip found in the files.
 struct Drawn<'a> {
     id: &'a str,
-    strip: &'a Strip,
+    strip: &'a RunEntry,
     measured: Measured,
     /// Axes as measured; where that was not possible, as listed.
     axes: Vec<FlatAxis>,
@@ -80,7 +80,7 @@ impl<'a> Strips<'a> {
         for found in &read.found {
             let place = &read.matching.places[found.place];
             let part = read.matching.shapes[place.shape].part;
-            let Some(strip) = &part.strip else { continue };
+            let Some(strip) = part.run() else { continue };
             let file = read.file(found);
             if !strip.is_sound(structure.nodes().len()) {
                 let spot = Spot::file("job.json").part(&part.id);
@@ -130,7 +130,7 @@ impl<'a> Strips<'a> {
     }
 
     /// Half-widths needed by the slit of a strip; as listed where its partner is unknown.
-    fn needed(&self, at: (usize, usize), slit: &Slit) -> [f64; 2] {
+    fn needed(&self, at: (usize, usize), slit: &SlitEntry) -> [f64; 2] {
         let listed = || {
             let half = (slit.width - self.manifest.material.clearance) / 2.0;
             [half - slit.offset, half + slit.offset]
@@ -184,7 +184,7 @@ impl<'a> Strips<'a> {
     fn slit_findings(
         &self,
         figure: &SlitFigure,
-        slit: &Slit,
+        slit: &SlitEntry,
         notch: &Notch,
         spot: &Spot,
     ) -> Vec<ProofFinding> {
@@ -266,7 +266,7 @@ impl<'a> Strips<'a> {
             let (before, after) =
                 (before.filter(|n| has_both(*n))?, after.filter(|n| has_both(*n))?);
             let needed_deg = self.structure.fold(before, node, after).to_degrees();
-            let listed = strip.folds.iter().find(|fold| fold.node == node);
+            let listed = strip.folds().iter().find(|fold| fold.node == node);
             let listed_deg = listed.map_or(0.0, |fold| fold.angle_deg);
             let spot = Spot::file("job.json").part(id).node(node);
             ((listed_deg - needed_deg).abs() > self.limits().folds_deg)

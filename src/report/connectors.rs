@@ -1,62 +1,57 @@
-//! What `job.json` says of single fins, connectors, rods and their assembly.
+//! What `job.json` says of single fins, connectors and what is bought.
 
-use crate::parts::{Body, Connector, ConnectorBody, Copy, FinBody, Part, Step};
-use crate::report::manifest::{axis, degrees, mm};
-use serde_json::{Value, json};
+use crate::manifest::{
+    ConnectorEntry, ConnectorKind, CopyEntry, HardwareEntry, RunEntry, SlotEntry,
+    degrees, mm,
+};
+use crate::parts::{Body, Connector, ConnectorBody, Copy, FinBody, Part};
+use crate::report::manifest::axis;
 use std::collections::BTreeMap;
 
-pub(super) fn fin(body: &FinBody) -> Value {
-    json!({
-        "nodes": body.nodes,
-        "axes": body.axes.iter().map(axis).collect::<Vec<_>>(),
-        "setbacks": body.setbacks.map(mm),
-    })
+pub(super) fn fin(body: &FinBody) -> RunEntry {
+    RunEntry {
+        nodes: body.nodes.to_vec(),
+        axes: body.axes.iter().map(axis).collect(),
+        setbacks: body.setbacks.map(mm),
+        closed: None,
+        folds: None,
+        slits: None,
+        splices: None,
+    }
 }
 
-pub(super) fn connector(body: &ConnectorBody) -> Value {
+pub(super) fn connector(body: &ConnectorBody) -> ConnectorEntry {
     let connector = &body.connector;
     let named = || body.fins.iter().zip(&connector.around().spokes);
     let (kind, width, length, hole) = match connector {
-        Connector::Hub(hub) => ("hub", hub.width, hub.slot, hub.hole),
+        Connector::Hub(hub) => (ConnectorKind::Hub, hub.width, hub.slot, hub.hole),
         Connector::Hinge(hinge) => {
-            ("hinge", hinge.width, hinge.tail() - hinge.floor, hinge.hole)
+            let length = hinge.tail() - hinge.floor;
+            (ConnectorKind::Hinge, hinge.width, length, hinge.hole)
         }
     };
-    let slots = named().map(|(fin, spoke)| {
-        json!({
-            "fin": fin,
-            "to": spoke.to,
-            "angle_deg": degrees(spoke.bearing),
-            "width": mm(width),
-            "length": mm(length),
-        })
+    let slots = named().map(|(fin, spoke)| SlotEntry {
+        fin: fin.clone(),
+        to: Some(spoke.to),
+        angle_deg: degrees(spoke.bearing),
+        width: mm(width),
+        length: mm(length),
     });
-    let copy = |copy: &Copy| {
-        json!({
-            "height": mm(copy.height),
-            "angle_deg": degrees(copy.bearing),
-            "fins": copy.holds.iter().map(|&place| &body.fins[place]).collect::<Vec<_>>(),
-        })
+    let copy = |copy: &Copy| CopyEntry {
+        height: mm(copy.height),
+        angle_deg: degrees(copy.bearing),
+        fins: copy.holds.iter().map(|&place| body.fins[place].clone()).collect(),
     };
-    json!({
-        "kind": kind,
-        "node": body.node(),
-        "fins": named().map(|(fin, s)| json!([fin, degrees(s.bearing)])).collect::<Vec<_>>(),
-        "slots": slots.collect::<Vec<_>>(),
-        "radius": mm(connector.radius()),
-        "hole": mm(2.0 * hole),
-        "thickness": mm(connector.thickness()),
-        "copies": body.copies.iter().map(copy).collect::<Vec<_>>(),
-    })
-}
-
-/// A fin, a disc, or eyes with their rod; the lower disc of a hub comes from below.
-pub(super) fn step(part: &Part, step: &Step) -> Value {
-    let from = match (&part.body, step.copies) {
-        (Body::Connector(_), [1, 1]) => "below",
-        _ => "above",
-    };
-    json!({"copies": step.copies, "from": from})
+    ConnectorEntry {
+        kind,
+        node: body.node(),
+        fins: named().map(|(fin, s)| (fin.clone(), degrees(s.bearing))).collect(),
+        slots: slots.collect(),
+        radius: mm(connector.radius()),
+        hole: mm(2.0 * hole),
+        thickness: mm(connector.thickness()),
+        copies: body.copies.iter().map(copy).collect(),
+    }
 }
 
 /// Something that is bought.
@@ -117,15 +112,13 @@ pub(super) fn hardware(parts: &[Part]) -> Vec<Hardware> {
 }
 
 /// The same for `job.json`.
-pub(super) fn bought(parts: &[Part]) -> Vec<Value> {
-    let item = |item: Hardware| {
-        json!({
-            "kind": item.kind,
-            "diameter": item.diameter,
-            "length": item.length,
-            "quantity": item.quantity,
-            "nodes": item.nodes,
-        })
+pub(super) fn bought(parts: &[Part]) -> Vec<HardwareEntry> {
+    let item = |item: Hardware| HardwareEntry {
+        kind: item.kind.to_owned(),
+        diameter: item.diameter,
+        length: item.length,
+        quantity: item.quantity,
+        nodes: item.nodes,
     };
     hardware(parts).into_iter().map(item).collect()
 }

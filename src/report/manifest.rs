@@ -1,18 +1,21 @@
-//! `job.json`: everything an outside program needs to predict each cut line and to fold
-//! each part back onto the structure (contract §3).
+//! The manifest of a job, made from what the stages left.
 
 use crate::fabrication::Fabrication;
 use crate::geometry::{Contour, Point2};
 use crate::joint::Joint;
+use crate::manifest::{
+    AxisEntry, BendEntry, FORMAT, FoldEntry, InsertionEntry, Limits, Manifest,
+    MaterialEntry, OntoEntry, OpenEdge, PartEntry, PlacementEntry, ProofEntry, RunEntry,
+    SheetEntry, SlitEntry, SourceEntry, SpliceEntry, StepEntry, StockEntry,
+    StripStepEntry, Totals, VERSION, VendorEntry, Whence, degrees, mm, rounded,
+};
 use crate::nest::{NestedSheet, Stock};
 use crate::parts::{self, Body, FlatAxis, Opening, Part, Slit, Step, StripBody};
-use crate::proof::Limits;
 use crate::report::connectors;
 use crate::sheets::{Operation, Path, Sheet};
 use crate::template::Template;
 use crate::tolerance::ARC_SAGITTA_MM;
 use crate::vendor::{Format, VendorSheets};
-use serde_json::{Value, json};
 use std::collections::BTreeMap;
 
 /// Where a job came from.
@@ -35,37 +38,44 @@ pub struct Source<'a> {
 }
 
 /// The manifest of a job.
-pub fn manifest(job: &Fabrication, source: &Source) -> Value {
-    let material = &source.template.material;
-    json!({
-        "format": "finwright-job",
-        "version": 1,
-        "kind": if job.structure.is_some() { "structure" } else { "coupon" },
-        "generator": concat!("finwright ", env!("CARGO_PKG_VERSION")),
-        "input": {"name": source.input, "sha256": source.input_sha256},
-        "template": {"name": source.template.name, "sha256": source.template_sha256},
-        "seed": source.seed,
-        "scale": source.scale,
-        "joint": source.joint.name(),
-        "material": {
-            "name": material.name,
-            "thickness": material.thickness_mm,
-            "kerf": material.kerf_mm,
-            "clearance": material.clearance_mm,
+pub fn manifest(job: &Fabrication, source: &Source) -> Manifest {
+    let template = source.template;
+    let material = &template.material;
+    let entry = |name: &str, sha256: &str| SourceEntry {
+        name: name.to_owned(),
+        sha256: sha256.to_owned(),
+    };
+    let kind = if job.structure.is_some() { "structure" } else { "coupon" };
+    let proof = ProofEntry { limits: limits(template), ..ProofEntry::default() };
+    Manifest {
+        format: FORMAT.to_owned(),
+        version: VERSION,
+        kind: kind.to_owned(),
+        generator: concat!("finwright ", env!("CARGO_PKG_VERSION")).to_owned(),
+        input: entry(source.input, source.input_sha256),
+        template: entry(&template.name, source.template_sha256),
+        seed: source.seed,
+        scale: source.scale.to_owned(),
+        joint: source.joint,
+        material: MaterialEntry {
+            name: material.name.clone(),
+            thickness: material.thickness_mm,
+            kerf: material.kerf_mm,
+            clearance: material.clearance_mm,
         },
-        "sheet_stock": job.settings.stock.iter().map(stock).collect::<Vec<_>>(),
-        "verdict": job.verdict.as_ref().map(|verdict| verdict.json(source.joint, false)),
-        "only": if job.only.is_empty() { Value::Null } else { json!(job.only) },
-        "accepted_flexible": job.settings.accepted_flexible,
-        "findings": job.findings,
-        "proof": {"limits": limits(source.template)},
-        "parts": job.parts.iter().map(part).collect::<Vec<_>>(),
-        "sheets": sheets(job),
-        "order": job.vendor.as_ref().map(|vendor| for_vendor(job, vendor)),
-        "assembly": assembly(job, source.template),
-        "hardware": connectors::bought(&job.parts),
-        "totals": totals(job, source.template),
-    })
+        sheet_stock: job.settings.stock.iter().map(stock).collect(),
+        verdict: job.verdict.as_ref().map(|verdict| verdict.entry(source.joint, false)),
+        only: (!job.only.is_empty()).then(|| job.only.clone()),
+        accepted_flexible: job.settings.accepted_flexible.clone(),
+        findings: job.findings.clone(),
+        proof,
+        parts: job.parts.iter().map(part).collect(),
+        sheets: sheets(job),
+        order: job.vendor.as_ref().map(|vendor| for_vendor(job, vendor)),
+        assembly: assembly(job, template),
+        hardware: connectors::bought(&job.parts),
+        totals: totals(job, template),
+    }
 }
 
 fn limits(template: &Template) -> Limits {
@@ -73,210 +83,209 @@ fn limits(template: &Template) -> Limits {
     Limits { axes_and_slits_mm: gate.proof_mm, folds_deg: gate.proof_deg }
 }
 
-/// Lengths and degrees as written: to 1e-6 mm and 1e-7 degrees, never `-0`.
-fn rounded(value: f64, places: f64) -> f64 {
-    (value * places).round() / places + 0.0
+fn point(p: Point2) -> Point2 {
+    Point2::new(mm(p.x), mm(p.y))
 }
 
-pub(super) fn mm(value: f64) -> f64 {
-    rounded(value, 1e6)
-}
-
-pub(super) fn degrees(radians: f64) -> f64 {
-    rounded(radians.to_degrees(), 1e7)
-}
-
-fn point(p: Point2) -> Value {
-    json!([mm(p.x), mm(p.y)])
-}
-
-fn ring(contour: &Contour) -> Vec<Value> {
+fn ring(contour: &Contour) -> Vec<Point2> {
     contour.flattened(ARC_SAGITTA_MM).into_iter().map(point).collect()
 }
 
-fn stock(stock: &Stock) -> Value {
-    json!({
-        "width": stock.width,
-        "height": stock.height,
-        "margin": stock.margin,
-        "spacing": stock.spacing,
-        "count": stock.count,
-    })
+fn stock(stock: &Stock) -> StockEntry {
+    let &Stock { width, height, margin, spacing, count, .. } = stock;
+    StockEntry { width, height, margin, spacing, count }
 }
 
-fn part(part: &Part) -> Value {
+fn part(part: &Part) -> PartEntry {
     let cut_length: f64 = part.region.contours().map(Contour::length).sum();
-    let mut value = json!({
-        "id": part.id,
-        "kind": part.body.kind(),
-        "quantity": part.quantity,
-        "label": part.id,
-        "outline": ring(&part.region.outline),
-        "holes": part.region.holes.iter().map(ring).collect::<Vec<_>>(),
-        "area": mm(part.region.area()),
-        "cut_length": mm(cut_length),
-    });
+    let entry = PartEntry {
+        id: part.id.clone(),
+        kind: part.body.kind().to_owned(),
+        quantity: part.quantity,
+        label: part.id.clone(),
+        outline: ring(&part.region.outline),
+        holes: part.region.holes.iter().map(ring).collect(),
+        area: mm(part.region.area()),
+        cut_length: mm(cut_length),
+        shape: None,
+        strip: None,
+        fin: None,
+        connector: None,
+    };
     match &part.body {
-        Body::Strip(body) => value["strip"] = strip(body),
+        Body::Strip(body) => PartEntry { strip: Some(Some(strip(body))), ..entry },
         Body::Fin(body) => {
-            value["shape"] = json!(body.shape);
-            value["fin"] = connectors::fin(body);
+            let shape = Some(body.shape.clone());
+            PartEntry { shape, fin: Some(connectors::fin(body)), ..entry }
         }
-        Body::Connector(body) => value["connector"] = connectors::connector(body),
-        Body::Coupon => value["strip"] = Value::Null,
+        Body::Connector(body) => {
+            PartEntry { connector: Some(connectors::connector(body)), ..entry }
+        }
+        Body::Coupon => PartEntry { strip: Some(None), ..entry },
     }
-    value
 }
 
-fn strip(body: &StripBody) -> Value {
+fn strip(body: &StripBody) -> RunEntry {
     let folds = body.folds.iter();
-    let folds = folds.map(|f| json!({"node": f.node, "angle_deg": degrees(f.angle)}));
-    json!({
-        "nodes": body.axes.iter().map(|axis| axis.node).collect::<Vec<_>>(),
-        "closed": body.closed,
-        "axes": body.axes.iter().map(axis).collect::<Vec<_>>(),
-        "folds": folds.collect::<Vec<_>>(),
-        "slits": body.slits.iter().map(|(s, partner)| slit(s, partner)).collect::<Vec<_>>(),
-        "splices": body.splices.iter().map(|fin| json!({"fin": fin})).collect::<Vec<_>>(),
-        "setbacks": body.setbacks.map(mm),
-    })
+    let folds = folds.map(|f| FoldEntry { node: f.node, angle_deg: degrees(f.angle) });
+    let splices = body.splices.iter().map(|&fin| SpliceEntry { fin });
+    RunEntry {
+        nodes: body.axes.iter().map(|axis| axis.node).collect(),
+        axes: body.axes.iter().map(axis).collect(),
+        setbacks: body.setbacks.map(mm),
+        closed: Some(body.closed),
+        folds: Some(folds.collect()),
+        slits: Some(body.slits.iter().map(slit).collect()),
+        splices: Some(splices.collect()),
+    }
 }
 
-pub(super) fn axis(axis: &FlatAxis) -> Value {
-    json!({"node": axis.node, "bottom": point(axis.bottom()), "top": point(axis.top())})
+pub(super) fn axis(axis: &FlatAxis) -> AxisEntry {
+    let (bottom, top) = (point(axis.bottom()), point(axis.top()));
+    AxisEntry { node: axis.node, bottom, top }
 }
 
-fn slit(slit: &Slit, partner: &str) -> Value {
-    json!({
-        "node": slit.node,
-        "from": match slit.from { Opening::Top => "top", Opening::Bottom => "bottom" },
-        "width": mm(slit.width()),
-        "depth": mm(slit.depth),
-        "offset": mm(slit.offset()),
-        "crossing_deg": degrees(slit.crossing),
-        "partner": partner,
-    })
+fn slit((slit, partner): &(Slit, String)) -> SlitEntry {
+    SlitEntry {
+        node: slit.node,
+        from: match slit.from {
+            Opening::Top => OpenEdge::Top,
+            Opening::Bottom => OpenEdge::Bottom,
+        },
+        width: mm(slit.width()),
+        depth: mm(slit.depth),
+        offset: mm(slit.offset()),
+        crossing_deg: degrees(slit.crossing),
+        partner: partner.clone(),
+    }
 }
 
-fn sheets(job: &Fabrication) -> Vec<Value> {
+fn sheets(job: &Fabrication) -> Vec<SheetEntry> {
     let pairs = job.sheets.iter().zip(&job.layout.sheets);
     let mut copies = Copies::default();
-    pairs.map(|(sheet, nested)| sheet_entry(job, sheet, nested, &mut copies)).collect()
+    let entry = |(sheet, nested): (&Sheet, &NestedSheet)| {
+        let area =
+            |placement: &crate::nest::Placement| job.parts[placement.shape].region.area();
+        let used: f64 = nested.placements.iter().map(area).sum();
+        let file = |ending: &str| {
+            (ending.to_owned(), Some(format!("sheets/{}.{ending}", sheet.id)))
+        };
+        SheetEntry {
+            id: sheet.id.clone(),
+            width: sheet.width,
+            height: sheet.height,
+            files: ["dxf", "svg", "png"].map(file).into(),
+            utilisation: Some(mm(used / (sheet.width * sheet.height))),
+            placements: placements(job, nested, &mut copies),
+        }
+    };
+    pairs.map(entry).collect()
 }
 
 /// How many copies of each part have been met.
 type Copies = BTreeMap<usize, usize>;
 
-fn sheet_entry(
-    job: &Fabrication,
-    sheet: &Sheet,
-    nested: &NestedSheet,
-    copies: &mut Copies,
-) -> Value {
-    let area =
-        |placement: &crate::nest::Placement| job.parts[placement.shape].region.area();
-    let used: f64 = nested.placements.iter().map(area).sum();
-    let file = |ending: &str| format!("sheets/{}.{ending}", sheet.id);
-    json!({
-        "id": sheet.id,
-        "width": sheet.width,
-        "height": sheet.height,
-        "files": {"dxf": file("dxf"), "svg": file("svg"), "png": file("png")},
-        "utilisation": mm(used / (sheet.width * sheet.height)),
-        "placements": placements(job, nested, copies),
-    })
-}
-
 fn placements(
     job: &Fabrication,
     nested: &NestedSheet,
     copies: &mut Copies,
-) -> Vec<Value> {
+) -> Vec<PlacementEntry> {
     let placements = nested.placements.iter().map(|p| {
         let copy = copies.entry(p.shape).or_default();
         *copy += 1;
-        json!({
-            "part": job.parts[p.shape].id,
-            "copy": copy,
-            "x": mm(p.x),
-            "y": mm(p.y),
-            "angle_deg": degrees(p.angle),
-        })
+        PlacementEntry {
+            part: job.parts[p.shape].id.clone(),
+            copy: *copy,
+            x: mm(p.x),
+            y: mm(p.y),
+            angle_deg: degrees(p.angle),
+        }
     });
     placements.collect()
 }
 
 /// The files for a service, with where parts lie in them.
-fn for_vendor(job: &Fabrication, vendor: &VendorSheets) -> Value {
+fn for_vendor(job: &Fabrication, vendor: &VendorSheets) -> VendorEntry {
     let mut copies = Copies::default();
-    let sheets =
-        vendor.sheets.iter().zip(&vendor.layout.sheets).map(|(sheet, nested)| {
-            json!({
-                "id": sheet.id,
-                "width": sheet.width,
-                "height": sheet.height,
-                "files": {
-                    "dxf": vendor.path(sheet, Format::Dxf),
-                    "svg": vendor.path(sheet, Format::Svg),
-                },
-                "placements": placements(job, nested, &mut copies),
-            })
-        });
-    json!({
-        "profile": vendor.profile.name,
-        "kerf": vendor.kerf_mm,
-        "pdf": vendor.pdf_path(),
-        "sheets": sheets.collect::<Vec<_>>(),
-    })
+    let sheets = vendor.sheets.iter().zip(&vendor.layout.sheets);
+    let sheets = sheets.map(|(sheet, nested)| SheetEntry {
+        id: sheet.id.clone(),
+        width: sheet.width,
+        height: sheet.height,
+        files: [("dxf", Format::Dxf), ("svg", Format::Svg)]
+            .map(|(name, format)| (name.to_owned(), vendor.path(sheet, format)))
+            .into(),
+        utilisation: None,
+        placements: placements(job, nested, &mut copies),
+    });
+    VendorEntry {
+        profile: vendor.profile.name.to_owned(),
+        kerf: vendor.kerf_mm,
+        pdf: vendor.pdf_path(),
+        sheets: sheets.collect(),
+    }
 }
 
 /// The steps in order.
-fn assembly(job: &Fabrication, template: &Template) -> Vec<Value> {
+fn assembly(job: &Fabrication, template: &Template) -> Vec<StepEntry> {
     let steps = job.steps.iter().enumerate();
-    let value = |(k, step): (usize, &Step)| {
+    let entry = |(k, step): (usize, &Step)| {
         let part = &job.parts[step.part];
-        let mut value = match &part.body {
-            Body::Strip(body) => strip_step(job, body, template),
-            _ => connectors::step(part, step),
+        let is_strip = matches!(part.body, Body::Strip(_));
+        // The lower disc of a hub comes from below.
+        let from = match (&part.body, step.copies) {
+            (Body::Connector(_), [1, 1]) => Whence::Below,
+            _ => Whence::Above,
         };
-        value["step"] = json!(k + 1);
-        value["part"] = json!(part.id);
-        value
+        let strip = match &part.body {
+            Body::Strip(body) => Some(strip_step(job, body, template)),
+            _ => None,
+        };
+        let copies = (!is_strip).then_some(step.copies);
+        StepEntry { step: k + 1, part: part.id.clone(), from, copies, strip }
     };
-    steps.map(value).collect()
+    steps.map(entry).collect()
 }
 
-/// A strip goes in from above, its slits open at the bottom onto the strips that stand.
-fn strip_step(job: &Fabrication, body: &StripBody, template: &Template) -> Value {
+/// A strip goes in with its slits open at the bottom onto the strips that stand.
+fn strip_step(
+    job: &Fabrication,
+    body: &StripBody,
+    template: &Template,
+) -> StripStepEntry {
     let onto = body.slits.iter().filter(|(slit, _)| slit.from == Opening::Bottom);
-    let onto = onto.map(|(slit, partner)| json!({"node": slit.node, "part": partner}));
-    json!({
-        "rank": body.rank + 1,
-        "from": "above",
-        "onto": onto.collect::<Vec<_>>(),
-        "insertion": insertion(job, body, template),
-    })
+    let onto = onto.map(|(s, part)| OntoEntry { node: s.node, part: part.clone() });
+    StripStepEntry {
+        rank: body.rank + 1,
+        onto: onto.collect(),
+        insertion: insertion(job, body, template),
+    }
 }
 
 /// How a strip goes in, by numbers; `None` for one that goes onto nothing.
-fn insertion(job: &Fabrication, body: &StripBody, template: &Template) -> Option<Value> {
+fn insertion(
+    job: &Fabrication,
+    body: &StripBody,
+    template: &Template,
+) -> Option<InsertionEntry> {
     let material = &template.material;
     let way = parts::insertion(job.structure.as_ref()?, body, material.clearance_mm)?;
-    Some(json!({
-        "mode": if way.is_rigid { "push" } else { "zip" },
-        "spread_deg": degrees(way.spread),
-        "sideways_mm": mm(way.sideways),
-        "clearance_mm": material.clearance_mm,
-        "bend": way.bend.map(|(radius, node)| json!({
-            "after_node": node,
-            "radius_mm": rounded(radius, 10.0),
-            "over_thickness": rounded(radius / material.thickness_mm, 10.0),
-        })),
-    }))
+    let bend = way.bend.map(|(radius, after_node)| BendEntry {
+        after_node,
+        radius_mm: rounded(radius, 10.0),
+        over_thickness: rounded(radius / material.thickness_mm, 10.0),
+    });
+    Some(InsertionEntry {
+        mode: if way.is_rigid { "push" } else { "zip" }.to_owned(),
+        spread_deg: degrees(way.spread),
+        sideways_mm: mm(way.sideways),
+        clearance_mm: material.clearance_mm,
+        bend,
+    })
 }
 
 /// Lengths, time, mass and cost of a whole job.
-fn totals(job: &Fabrication, template: &Template) -> Value {
+fn totals(job: &Fabrication, template: &Template) -> Totals {
     let length = |operations: &[Operation]| -> f64 {
         let strokes = job.sheets.iter().flat_map(|sheet| &sheet.strokes);
         let wanted = strokes.filter(|stroke| operations.contains(&stroke.operation));
@@ -289,15 +298,15 @@ fn totals(job: &Fabrication, template: &Template) -> Value {
     let area: f64 = job.parts.iter().map(|p| p.region.area() * p.quantity as f64).sum();
     // mm² × mm × kg/m³: 1e9 mm³ are a cubic metre.
     let mass = area * material.thickness_mm * material.density_kg_m3 / 1e9;
-    json!({
-        "parts": job.parts.iter().map(|part| part.quantity).sum::<usize>(),
-        "sheets": job.sheets.len(),
-        "cut_length": mm(cut),
-        "engrave_length": mm(marked),
-        "seconds": rounded(seconds, 10.0),
-        "mass": mm(mass),
-        "cost": cost(job, template),
-    })
+    Totals {
+        parts: job.parts.iter().map(|part| part.quantity).sum::<usize>(),
+        sheets: job.sheets.len(),
+        cut_length: mm(cut),
+        engrave_length: mm(marked),
+        seconds: rounded(seconds, 10.0),
+        mass: mm(mass),
+        cost: cost(job, template),
+    }
 }
 
 /// Price of the sheets used, if the template prices all of them.

@@ -6,6 +6,7 @@
 use crate::fabrication::Fabrication;
 use crate::geometry::{Point2, Point3, Vector2, Vector3, trig};
 use crate::parts::{Body, ConnectorBody, Part};
+use crate::picture::{self, Camera, PngError};
 use crate::structure::Structure;
 use crate::tolerance::ARC_SAGITTA_MM;
 use tiny_skia::{Pixmap, PremultipliedColorU8};
@@ -25,50 +26,38 @@ const FIN: [f64; 3] = [0.62, 0.76, 0.86];
 const PLATE: [f64; 3] = [0.98, 0.66, 0.28];
 
 /// The picture of a node as PNG, fins `thickness` mm thick; `None` if no connector is there.
-pub fn node_picture(job: &Fabrication, node: usize, thickness: f64) -> Option<Vec<u8>> {
-    let structure = job.structure.as_ref()?;
+///
+/// # Errors
+/// [`PngError`] if it cannot be packed.
+pub fn node_picture(
+    job: &Fabrication,
+    node: usize,
+    thickness: f64,
+) -> Result<Option<Vec<u8>>, PngError> {
+    let Some(structure) = &job.structure else { return Ok(None) };
     let connector = job.parts.iter().find_map(|part| match &part.body {
         Body::Connector(body) if body.node() == node => Some((part, body)),
         _ => None,
-    })?;
+    });
+    let Some(connector) = connector else { return Ok(None) };
     let out = SHOWN * connector.1.connector.reach();
     let mut slabs = plates(structure, connector);
     for part in &job.parts {
         slabs.extend(ends(structure, part, node, (out, thickness)));
     }
-    let view = View::new(&structure.nodes()[node].axis);
+    let camera = Camera::about(&structure.nodes()[node].axis, FROM);
     let scale =
         2.3 * out.max(structure.nodes()[node].height() * 0.8) / (SIZE * FINE) as f64;
     let rays: Vec<Option<Hit>> = (0..SIZE * FINE * SIZE * FINE)
         .map(|k| {
             let (x, y) = (k % (SIZE * FINE), k / (SIZE * FINE));
             let half = (SIZE * FINE) as f64 / 2.0;
-            let from = view.right * ((x as f64 - half) * scale)
-                + view.up * ((half - y as f64) * scale);
-            first(&slabs, from, view.toward)
+            let from = camera.right * ((x as f64 - half) * scale)
+                + camera.up * ((half - y as f64) * scale);
+            first(&slabs, from, camera.toward)
         })
         .collect();
-    drawn(&rays)
-}
-
-struct View {
-    right: Vector3,
-    up: Vector3,
-    toward: Vector3,
-}
-
-impl View {
-    /// Slanted from above, the axis upright.
-    fn new(axis: &Vector3) -> Self {
-        let away = if axis.x.abs() < 0.6 { Vector3::x() } else { Vector3::y() };
-        let east = axis.cross(&away).normalize();
-        let north = axis.cross(&east);
-        let [around, high] = FROM;
-        let flat = east * trig::cos(around) + north * trig::sin(around);
-        let toward = flat * trig::cos(high) + axis * trig::sin(high);
-        let right = axis.cross(&toward).normalize();
-        Self { right, up: toward.cross(&right), toward }
-    }
+    drawn(&rays).map(|pixels| picture::png(&pixels)).transpose()
 }
 
 /// A part in space, relative to the node.
@@ -220,7 +209,7 @@ impl Slab {
 }
 
 /// Pixels of the mean of their rays, with dark lines where parts or faces end.
-fn drawn(rays: &[Option<Hit>]) -> Option<Vec<u8>> {
+fn drawn(rays: &[Option<Hit>]) -> Option<Pixmap> {
     let wide = SIZE * FINE;
     let key = |k: usize| rays[k].map(|hit| (hit.slab, hit.side));
     let color = |x: usize, y: usize| {
@@ -244,5 +233,5 @@ fn drawn(rays: &[Option<Hit>]) -> Option<Vec<u8>> {
         let [r, g, b] = sum.map(|c| (c * 255.0).round() as u8);
         *pixel = PremultipliedColorU8::from_rgba(r, g, b, 255)?;
     }
-    pixels.encode_png().ok()
+    Some(pixels)
 }

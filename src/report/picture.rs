@@ -1,12 +1,13 @@
 //! The structure seen from one side in parallel projection, for pictures of steps.
 
 use crate::fabrication::Fabrication;
-use crate::geometry::{Point2, Vector3, trig};
+use crate::geometry::Point2;
+use crate::picture::Camera;
 use crate::report::fins;
 use crate::structure::Structure;
 
 /// Where pictures are seen from: radians around and up.
-const FROM: [f64; 2] = [-1.1, 0.6];
+pub(super) const FROM: [f64; 2] = [-1.1, 0.6];
 
 /// A fin or a plate of a connector as it is seen.
 #[derive(Debug, Clone, PartialEq)]
@@ -29,16 +30,16 @@ pub(super) struct Picture {
 impl Picture {
     /// The picture of a job, as wide as `width`, its lower left corner in the origin.
     pub(super) fn new(job: &Fabrication, structure: &Structure, width: f64) -> Self {
-        let view = View::new();
+        let camera = Camera::level(FROM);
         let mut panels: Vec<(f64, Panel)> = Vec::new();
         for (part, made) in job.parts.iter().enumerate() {
             let fins = fins::of_part(made).into_iter().map(|fin| structure.corners(fin));
             for corners in fins.chain(fins::plates(structure, made)) {
                 let corners = corners.map(|p| p.coords);
-                let depth = corners.iter().map(|p| p.dot(&view.toward)).sum();
+                let depth = corners.iter().map(|p| camera.nearness(p)).sum();
                 panels.push((
                     depth,
-                    Panel { part, corners: corners.map(|p| view.flat(&p)) },
+                    Panel { part, corners: corners.map(|p| camera.flat(&p)) },
                 ));
             }
         }
@@ -59,25 +60,4 @@ fn fitted(panels: &mut [Panel], width: f64) -> [f64; 2] {
         *corner = Point2::from((*corner - low) * scale);
     }
     [width, (high.y - low.y) * scale]
-}
-
-struct View {
-    right: Vector3,
-    up: Vector3,
-    toward: Vector3,
-}
-
-impl View {
-    fn new() -> Self {
-        let [around, high] = FROM;
-        let (sin, cos) = (trig::sin(around), trig::cos(around));
-        let right = Vector3::new(-sin, cos, 0.0);
-        let flat = Vector3::new(cos, sin, 0.0) * trig::cos(high);
-        let toward = flat + Vector3::z() * trig::sin(high);
-        Self { right, up: toward.cross(&right), toward }
-    }
-
-    fn flat(&self, p: &Vector3) -> Point2 {
-        Point2::new(p.dot(&self.right), p.dot(&self.up))
-    }
 }

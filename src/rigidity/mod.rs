@@ -13,8 +13,8 @@
 mod amplify;
 mod compliance;
 mod criteria;
+mod entry;
 mod finding;
-mod json;
 mod linkage;
 mod matrix;
 mod mobility;
@@ -34,6 +34,9 @@ mod verdict;
 use crate::watch::Watch;
 pub use amplify::Bracket;
 pub use criteria::{Criteria, Pairing, SwayLimit};
+pub use entry::{
+    BoundsEntry, DiscrepancyEntry, HingeEntry, PaperEntry, RemedyEntry, VerdictEntry,
+};
 pub use finding::RigidityFinding;
 pub use linkage::read_linkage;
 pub use model::{Coupling, Model, RigidBody};

@@ -1,7 +1,8 @@
 //! The paper's Figure 8: fins coloured by the discrepancy of their hinges, and the motion
 //! that the hinges resist least as a displaced ghost.
 
-use crate::geometry::{Point3, Vector3, trig};
+use crate::geometry::{Point2, Point3};
+use crate::picture::{self, Camera, HEAT, PngError};
 use crate::rigidity::model::{Model, RigidBody};
 use crate::rigidity::paper::{Paper, velocity};
 use crate::structure::Structure;
@@ -30,8 +31,8 @@ impl Default for Look {
 /// A fin with its colour, at rest and displaced, in picture coordinates.
 struct Panel {
     depth: f64,
-    rest: [[f64; 2]; 4],
-    ghost: [[f64; 2]; 4],
+    rest: [Point2; 4],
+    ghost: [Point2; 4],
     heat: f64,
 }
 
@@ -40,13 +41,21 @@ const GHOST: f64 = 0.07;
 
 /// The structure in one of its least resisted motions as PNG. `None` if there is no such
 /// motion or nothing to draw.
+///
+/// # Errors
+/// [`PngError`] if it cannot be packed.
 pub fn picture(
     structure: &Structure,
     model: &Model,
     paper: &Paper,
     look: &Look,
-) -> Option<Vec<u8>> {
-    let panels = panels(structure, model, paper, look)?;
+) -> Result<Option<Vec<u8>>, PngError> {
+    let panels = panels(structure, model, paper, look);
+    let pixels = panels.and_then(|panels| painted(&panels, look));
+    pixels.map(|pixels| picture::png(&pixels)).transpose()
+}
+
+fn painted(panels: &[Panel], look: &Look) -> Option<Pixmap> {
     let ends = || panels.iter().flat_map(|p| p.rest.iter().chain(&p.ghost));
     let span = |k: usize| {
         let low = ends().map(|p| p[k]).fold(f64::INFINITY, f64::min);
@@ -58,21 +67,21 @@ pub fn picture(
     let height = (high * scale + 2.0 * edge).ceil() as u32;
     let mut pixels = Pixmap::new(look.width, height)?;
     pixels.fill(Color::WHITE);
-    let at = |p: [f64; 2]| {
-        let x = (p[0] - left) * scale + edge;
-        let y = f64::from(height) - (p[1] - low) * scale - edge;
+    let at = |p: Point2| {
+        let x = (p.x - left) * scale + edge;
+        let y = f64::from(height) - (p.y - low) * scale - edge;
         [x as f32, y as f32]
     };
-    for panel in &panels {
-        let [r, g, b] = colour(panel.heat);
+    for panel in panels {
+        let [r, g, b] = HEAT.at(panel.heat).map(|light| light as u8);
         draw(&mut pixels, panel.rest.map(at), [r, g, b, 235], true);
         draw(&mut pixels, panel.rest.map(at), [70, 70, 70, 255], false);
     }
-    for panel in &panels {
+    for panel in panels {
         draw(&mut pixels, panel.ghost.map(at), [60, 100, 190, 26], true);
         draw(&mut pixels, panel.ghost.map(at), [60, 100, 190, 150], false);
     }
-    pixels.encode_png().ok()
+    Some(pixels)
 }
 
 fn panels(
@@ -93,9 +102,9 @@ fn panels(
     let corners = || fins().map(|(fin, body)| (structure.corners(fin), body));
     let speeds = corners().flat_map(|(c, body)| c.map(|q| moved(body, &q).norm()));
     let fastest = speeds.fold(f64::MIN_POSITIVE, f64::max);
-    let view = View::new(look.from);
+    let camera = Camera::level(look.from);
     let size = corners()
-        .flat_map(|(c, _)| c.map(|q| view.flat(&q.coords)[0]))
+        .flat_map(|(c, _)| c.map(|q| camera.flat(&q.coords).x))
         .fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), x| (l.min(x), h.max(x)));
     let reach = GHOST * (size.1 - size.0) / fastest;
     let mut panels: Vec<Panel> = fins()
@@ -103,9 +112,10 @@ fn panels(
             let corners = structure.corners([i, j]);
             let heat = |node: usize| heats.get(&(node, body)).copied().unwrap_or(0.0);
             Panel {
-                depth: corners.iter().map(|q| view.depth(&q.coords)).sum(),
-                rest: corners.map(|q| view.flat(&q.coords)),
-                ghost: corners.map(|q| view.flat(&(q.coords + moved(body, &q) * reach))),
+                depth: corners.iter().map(|q| camera.nearness(&q.coords)).sum(),
+                rest: corners.map(|q| camera.flat(&q.coords)),
+                ghost: corners
+                    .map(|q| camera.flat(&(q.coords + moved(body, &q) * reach))),
                 heat: (heat(i) + heat(j)) / 2.0 / red,
             }
         })
@@ -142,40 +152,6 @@ fn heats(model: &Model, paper: &Paper, motion: usize) -> BTreeMap<(usize, usize)
         }
     }
     heats
-}
-
-/// A parallel projection.
-struct View {
-    right: Vector3,
-    up: Vector3,
-    toward: Vector3,
-}
-
-impl View {
-    fn new([around, high]: [f64; 2]) -> Self {
-        let (sin, cos) = (trig::sin(around), trig::cos(around));
-        let right = Vector3::new(-sin, cos, 0.0);
-        let flat = Vector3::new(cos, sin, 0.0) * trig::cos(high);
-        let toward = flat + Vector3::z() * trig::sin(high);
-        Self { right, up: toward.cross(&right), toward }
-    }
-
-    fn flat(&self, p: &Vector3) -> [f64; 2] {
-        [p.dot(&self.right), p.dot(&self.up)]
-    }
-
-    fn depth(&self, p: &Vector3) -> f64 {
-        p.dot(&self.toward)
-    }
-}
-
-/// From pale over yellow to red.
-fn colour(heat: f64) -> [u8; 3] {
-    let stops = [[233.0, 240.0, 244.0], [250.0, 214.0, 92.0], [214.0, 38.0, 32.0]];
-    let place = heat.clamp(0.0, 1.0) * 2.0;
-    let k = (place as usize).min(1);
-    let share = place - k as f64;
-    std::array::from_fn(|c| (stops[k][c] * (1.0 - share) + stops[k + 1][c] * share) as u8)
 }
 
 fn draw(pixels: &mut Pixmap, corners: [[f32; 2]; 4], [r, g, b, a]: [u8; 4], fill: bool) {

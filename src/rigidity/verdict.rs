@@ -15,6 +15,7 @@ use crate::sparse::Halt;
 use crate::structure::{Structure, write_json};
 use crate::tolerance::FORCE_BALANCE;
 use crate::watch::{Stopped, Watch};
+use serde::{Deserialize, Serialize};
 use sha2::{Digest, Sha256};
 
 /// The modes that decide where to look.
@@ -53,7 +54,9 @@ impl Fingerprint {
 }
 
 /// The outcome in a word.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+#[serde(rename_all = "lowercase")]
 pub enum Outcome {
     /// It sways within the limit at all nodes looked at.
     Rigid,

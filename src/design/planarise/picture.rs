@@ -3,6 +3,7 @@
 
 use crate::geometry::{Point2, Point3, Vector3};
 use crate::lettering::letter;
+use crate::picture::{BLUE_TO_RED, Camera};
 use crate::structure::{Draft, planarity};
 use crate::tolerance::PLANAR;
 use miette::Diagnostic;
@@ -30,7 +31,7 @@ pub struct PictureError;
 /// # Errors
 /// [`PictureError`] if there is nothing to draw.
 pub fn picture(before: &Draft, after: &Draft) -> Result<Vec<u8>, PictureError> {
-    let view = View::onto(before);
+    let view = Panel::onto(before);
     let size = [2.0 * PANEL[0], PANEL[1] + FOOT];
     let mut pixels = Pixmap::new(size[0] as u32, size[1] as u32).ok_or(PictureError)?;
     pixels.fill(Color::WHITE);
@@ -46,16 +47,14 @@ pub fn picture(before: &Draft, after: &Draft) -> Result<Vec<u8>, PictureError> {
     pixels.encode_png().map_err(|_| PictureError)
 }
 
-/// Where one looks from.
-struct View {
-    right: Vector3,
-    up: Vector3,
-    toward: Vector3,
+/// A camera with what is in the middle of its panel, and how large that is.
+struct Panel {
+    camera: Camera,
     centre: Vector3,
     scale: f64,
 }
 
-impl View {
+impl Panel {
     /// Slanted onto the mesh, so that it fills a panel.
     fn onto(draft: &Draft) -> Self {
         let sum: Vector3 = draft.axes.iter().map(|axis| axis.normalize()).sum();
@@ -64,12 +63,8 @@ impl View {
         } else {
             Vector3::z()
         };
-        let aside = if above.y.abs() < 0.9 { Vector3::y() } else { Vector3::z() };
-        let right = aside.cross(&above).normalize();
-        // 50 degrees off the mean axis: fins show their faces, cells stay open.
-        let toward = (above * 0.64 - above.cross(&right) * 0.77).normalize();
-        let up = toward.cross(&right);
-        let mut view = Self { right, up, toward, centre: Vector3::zeros(), scale: 1.0 };
+        let camera = Camera::slanted(&above);
+        let mut view = Self { camera, centre: Vector3::zeros(), scale: 1.0 };
         let places: Vec<Point2> = draft.positions.iter().map(|p| view.at(p)).collect();
         let low = places.iter().fold(places[0], |low, p| low.inf(p));
         let high = places.iter().fold(places[0], |high, p| high.sup(p));
@@ -78,13 +73,12 @@ impl View {
             .min((PANEL[1] - 3.0 * MARGIN) / span.y.abs())
             .min(f64::MAX);
         let middle = nalgebra::center(&low, &high);
-        view.centre = right * middle.x + up * middle.y;
+        view.centre = camera.right * middle.x + camera.up * middle.y;
         view
     }
 
     fn at(&self, p: &Point3) -> Point2 {
-        let p = p.coords - self.centre;
-        Point2::new(p.dot(&self.right), p.dot(&self.up)) * self.scale
+        self.camera.flat(&(p.coords - self.centre)) * self.scale
     }
 
     /// Draws all fins, the farthest first; returns the worst planarity.
@@ -98,7 +92,7 @@ impl View {
         };
         let mut quads: Vec<[Point3; 4]> = draft.fin_pairs().iter().map(quad).collect();
         let near = |quad: &[Point3; 4]| -> f64 {
-            quad.iter().map(|p| p.coords.dot(&self.toward)).sum()
+            quad.iter().map(|p| self.camera.nearness(&p.coords)).sum()
         };
         quads.sort_by(|a, b| near(a).total_cmp(&near(b)));
         let mut worst = 0.0_f64;
@@ -137,22 +131,11 @@ fn paint(pixels: &mut Pixmap, path: &Path, [r, g, b]: [u8; 3]) {
     pixels.stroke_path(path, &ink, &pen, Transform::identity(), None);
 }
 
-/// Blue over pale yellow to red (after ColorBrewer's RdYlBu, for the colour-blind too).
+/// The colour of a fin off its plane by a share of its diameter.
 fn colour(share: f64) -> [u8; 3] {
-    const STOPS: [[f64; 3]; 5] = [
-        [44.0, 123.0, 182.0],
-        [171.0, 217.0, 233.0],
-        [255.0, 255.0, 191.0],
-        [253.0, 174.0, 97.0],
-        [215.0, 25.0, 28.0],
-    ];
     let power = libm::log10(share.max(PLANAR)).clamp(LOW_POWER, HIGH_POWER);
-    let place = (power - LOW_POWER) / (HIGH_POWER - LOW_POWER) * (STOPS.len() - 1) as f64;
-    let stop = (place as usize).min(STOPS.len() - 2);
-    let share = place - stop as f64;
-    std::array::from_fn(|k| {
-        (STOPS[stop][k] * (1.0 - share) + STOPS[stop + 1][k] * share).round() as u8
-    })
+    let place = (power - LOW_POWER) / (HIGH_POWER - LOW_POWER);
+    BLUE_TO_RED.at(place).map(|light| light.round() as u8)
 }
 
 /// The scale of colours, with the percentages at its powers of ten.

@@ -14,10 +14,12 @@ mod sections;
 
 use crate::diagnostic::Finding;
 use crate::fabrication::Fabrication;
+use crate::manifest::Manifest;
+use crate::picture::HEAT;
 use crate::proof::Proof;
 use crate::report::manifest::Source;
+use crate::report::picture::FROM;
 use crate::report::steps;
-use serde_json::Value;
 
 /// What a page is about.
 #[derive(Clone, Copy)]
@@ -27,7 +29,7 @@ pub struct Page<'a> {
     /// Where it came from.
     pub source: &'a Source<'a>,
     /// Its manifest, as written.
-    pub manifest: &'a Value,
+    pub manifest: &'a Manifest,
     /// What its files prove; `None` if no cut file was written.
     pub proof: Option<&'a Proof>,
     /// Whether the files may go to the laser.
@@ -54,7 +56,7 @@ pub fn page(page: &Page) -> String {
          <header><h1>{title}</h1>\n<p>{about}</p>\n{stamp}{summary}</header>\n\
          <nav aria-label=\"sections\">{links}</nav>\n<main>\n{body}</main>\n\
          <footer><p>{generator}, template {template}, seed {seed}</p></footer>\n\
-         <script>\n{SCRIPT}</script>\n</body></html>\n",
+         <script>\n{script}</script>\n</body></html>\n",
         title = html::text(name),
         about = html::text(&about(page)),
         stamp = stamp(page),
@@ -64,7 +66,19 @@ pub fn page(page: &Page) -> String {
         generator = concat!("finwright ", env!("CARGO_PKG_VERSION")),
         template = html::text(&page.source.template.name),
         seed = page.source.seed,
+        script = script(),
     )
+}
+
+/// The script with the camera and the colours of the other pictures.
+fn script() -> String {
+    let stops = HEAT.stops();
+    let stops =
+        stops.iter().map(|stop| stop.map(|light| format!("{light:.2}")).join(", "));
+    let heat = format!("[[{}]]", stops.collect::<Vec<_>>().join("], ["));
+    let [around, up] = FROM.map(|angle| angle.to_string());
+    let script = SCRIPT.replace("__HEAT__", &heat);
+    script.replace("__AROUND__", &around).replace("__UP__", &up)
 }
 
 /// Anchor, title and HTML of each section.

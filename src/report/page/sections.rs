@@ -4,28 +4,26 @@ use crate::diagnostic::{Finding, Severity};
 use crate::fabrication::Fabrication;
 use crate::geometry::Contour;
 use crate::joint::Joint;
+use crate::manifest::Worst;
 use crate::parts::{Body, Opening};
 use crate::report::connectors::hardware;
 use crate::report::fins;
 use crate::report::page::Page;
 use crate::report::page::html::{self, details, table};
 use crate::rigidity::{Outcome, Verdict};
-use serde_json::Value;
 
 /// The most important figures side by side.
 pub(super) fn summary(page: &Page) -> String {
-    let totals = &page.manifest["totals"];
-    let number = |key: &str| totals[key].as_f64().unwrap_or(0.0);
-    let minutes = (number("seconds") / 60.0).ceil();
-    let sheets = number("sheets").to_string();
+    let totals = &page.manifest.totals;
+    let minutes = (totals.seconds / 60.0).ceil();
     let mut cards = vec![
-        ("parts", number("parts").to_string()),
-        (if sheets == "1" { "sheet" } else { "sheets" }, sheets),
-        ("to cut", format!("{:.1} m", number("cut_length") / 1000.0)),
+        ("parts", totals.parts.to_string()),
+        (if totals.sheets == 1 { "sheet" } else { "sheets" }, totals.sheets.to_string()),
+        ("to cut", format!("{:.1} m", totals.cut_length / 1000.0)),
         ("on the machine", format!("{minutes} min")),
-        ("mass", format!("{:.2} kg", number("mass"))),
+        ("mass", format!("{:.2} kg", totals.mass)),
     ];
-    let cost = totals["cost"].as_f64().filter(|cost| *cost > 0.0);
+    let cost = totals.cost.filter(|cost| *cost > 0.0);
     cards.push(("material", cost.map_or("not priced".to_owned(), |c| format!("{c:.2}"))));
     let card = |(name, value): &(&str, String)| {
         format!("<div class=\"card\"><b>{}</b>{name}</div>", html::text(value))
@@ -144,8 +142,8 @@ pub(super) fn order(page: &Page) -> String {
     });
     let rows: Vec<Vec<String>> = rows.into_iter().chain(bought).collect();
     let text = table("To order", &["count", "size", "what"], &rows);
-    let used = page.manifest["sheets"].as_array().into_iter().flatten();
-    let used: Vec<f64> = used.filter_map(|s| s["utilisation"].as_f64()).collect();
+    let used = page.manifest.sheets.iter();
+    let used: Vec<f64> = used.filter_map(|sheet| sheet.utilisation).collect();
     let mean = 100.0 * used.iter().sum::<f64>() / used.len().max(1) as f64;
     let (least, most) = (material.thickness_least_mm, material.thickness_most_mm);
     text + &format!(
@@ -248,10 +246,8 @@ pub(super) fn proof(page: &Page) -> String {
         vec![html::text(path), format!("<code>{}</code>", html::text(digest))]
     };
     let files: Vec<Vec<String>> = proof.files.iter().map(file).collect();
-    let worst = Value::Array(proof.worst.iter().map(|w| serde_json::json!(w)).collect());
-    let figure = |(name, key): (&str, &str)| {
-        let values = worst.as_array().into_iter().flatten();
-        let cells = values.map(|w| format!("{:.4}", w[key].as_f64().unwrap_or(0.0)));
+    let figure = |(name, of): Figure| {
+        let cells = proof.worst.iter().map(|worst| format!("{:.4}", of(worst)));
         std::iter::once(name.to_owned()).chain(cells).collect::<Vec<_>>()
     };
     let rows: Vec<Vec<String>> = FIGURES.into_iter().map(figure).collect();
@@ -277,12 +273,15 @@ pub(super) fn proof(page: &Page) -> String {
     )
 }
 
-const FIGURES: [(&str, &str); 7] = [
-    ("gap between the axes that meet at a node", "node_gap_mm"),
-    ("axis from its place in the structure", "node_off_mm"),
-    ("corner of a fin", "fin_mm"),
-    ("slit from its place", "slit_off_mm"),
-    ("least play in a slit", "slit_play_least_mm"),
-    ("most play in a slit", "slit_play_most_mm"),
-    ("outline from the part's shape", "outline_mm"),
+/// What is measured, and its figure.
+type Figure = (&'static str, fn(&Worst) -> f64);
+
+const FIGURES: [Figure; 7] = [
+    ("gap between the axes that meet at a node", |worst| worst.node_gap_mm),
+    ("axis from its place in the structure", |worst| worst.node_off_mm),
+    ("corner of a fin", |worst| worst.fin_mm),
+    ("slit from its place", |worst| worst.slit_off_mm),
+    ("least play in a slit", |worst| worst.slit_play_least_mm),
+    ("most play in a slit", |worst| worst.slit_play_most_mm),
+    ("outline from the part's shape", |worst| worst.outline_mm),
 ];

@@ -10,7 +10,7 @@
   // Plates of connectors are drawn like fins: four corners, no planarity, no bend.
   const plates = scene.plates || [], finCount = scene.fins.length;
   const fins = [...scene.fins, ...plates.map(([part, node]) => [node, node, part, 0, 0, 0, 0, 0])];
-  const state = { part: -1, turn: -1.1, tilt: 0.6, zoom: 1, pan: [0, 0], step: parts.length, playing: false, sway: 0, lift: 0 };
+  const state = { part: -1, turn: __AROUND__, tilt: __UP__, zoom: 1, pan: [0, 0], step: parts.length, playing: false, sway: 0, lift: 0 };
 
   // ---- linking: a part is chosen anywhere and shown everywhere
   const index = new Map(parts.map((part, k) => [part.id, k]));
@@ -136,7 +136,7 @@
   const filled = buffers(FILL), edged = buffers(EDGE);
 
   // ---- colours: by part, or from pale over yellow to red
-  const RAMP = [[0.91, 0.94, 0.96], [0.98, 0.84, 0.36], [0.84, 0.15, 0.13]];
+  const RAMP = __HEAT__;
   const heat = (x) => {
     const t = Math.max(0, Math.min(1, x)) * 2, k = Math.min(1, Math.floor(t)), s = t - k;
     return [0, 1, 2].map((c) => RAMP[k][c] * (1 - s) + RAMP[k + 1][c] * s);
@@ -263,7 +263,7 @@
   canvas.addEventListener("keydown", (e) => { if (KEYS[e.key]) { e.preventDefault(); KEYS[e.key](); } });
   /** The view from above the side, the whole structure in the middle and as large as fits. */
   function home() {
-    Object.assign(state, { turn: -1.1, tilt: 0.6, zoom: 1, pan: [0, 0] });
+    Object.assign(state, { turn: __AROUND__, tilt: __UP__, zoom: 1, pan: [0, 0] });
     const rows = view(), [fx, fy] = frame();
     const flat = corners.flat().map((p) => minus(p, middle).map((x) => x / radius)).map((q) => [dot(q, rows[0]), dot(q, rows[1])]);
     const ends = [0, 1].map((k) => flat.reduce(([a, b], q) => [Math.min(a, q[k]), Math.max(b, q[k])], [Infinity, -Infinity]));
