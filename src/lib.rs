@@ -55,7 +55,7 @@ pub mod report;
 pub mod rigidity;
 pub mod settings;
 pub mod sheets;
-mod sparse;
+pub mod sparse;
 pub mod structure;
 pub mod template;
 pub mod tolerance;

@@ -13,7 +13,7 @@
 use crate::geometry::Vector3;
 use crate::rigidity::stiffness::Stiffness;
 use crate::rigidity::system::System;
-use crate::sparse::{Factor, Singular};
+use crate::sparse::{Factor, NotPositiveDefinite};
 use crate::tolerance::{BRACKET_WIDTH, FORCE_BALANCE, LEAST_WEIGHT};
 
 /// A load on the unknowns: one unit on a node along a direction. On a whole that floats
@@ -142,8 +142,8 @@ impl<'a> Bracketing<'a> {
     /// One more round.
     ///
     /// # Errors
-    /// [`Singular`] if the factorisation fails.
-    pub(super) fn tighten(&mut self) -> Result<(), Singular> {
+    /// [`NotPositiveDefinite`] if the factorisation fails.
+    pub(super) fn tighten(&mut self) -> Result<(), NotPositiveDefinite> {
         let stiffness = Stiffness::new(self.system, Some(&self.weights));
         let mut y = self.load.forces.clone();
         stiffness.factor()?.solve(&mut y, 1);

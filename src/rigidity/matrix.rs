@@ -16,7 +16,7 @@ pub(super) struct Matrix<'a> {
     pub(super) pairing: Pairing,
 }
 
-/// Singular values, ascending, their motions, and the largest singular value.
+/// NotPositiveDefinite values, ascending, their motions, and the largest singular value.
 type Solved = (Vec<f64>, Vec<Vec<[f64; 6]>>, f64);
 
 impl Matrix<'_> {

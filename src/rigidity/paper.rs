@@ -63,7 +63,7 @@ pub const MOST_PAIRED: usize = 100;
 /// Computes the paper's figures with body 0 held and no other support.
 ///
 /// # Errors
-/// [`Singular`] if the factorisation fails.
+/// [`NotPositiveDefinite`] if the factorisation fails.
 pub(super) fn paper(
     model: &Model,
     criteria: &Criteria,

@@ -2,7 +2,7 @@
 
 use crate::rigidity::motions::Motions;
 use crate::rigidity::system::{Contribution, Span, System};
-use crate::sparse::{Entries, Factor, Singular, map_chunks};
+use crate::sparse::{Entries, Factor, NotPositiveDefinite, map_chunks};
 use crate::tolerance::SHIFT;
 use std::ops::Range;
 
@@ -46,8 +46,8 @@ impl<'a> Stiffness<'a> {
     /// Its factor.
     ///
     /// # Errors
-    /// [`Singular`] if a motion meets no resistance even with the shift.
-    pub(super) fn factor(&self) -> Result<Factor<'a>, Singular> {
+    /// [`NotPositiveDefinite`] if a motion meets no resistance even with the shift.
+    pub(super) fn factor(&self) -> Result<Factor<'a>, NotPositiveDefinite> {
         Factor::new(&self.system.symbolic, self, self.system.threads)
     }
 

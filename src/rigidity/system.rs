@@ -10,7 +10,7 @@ use crate::geometry::Point3;
 use crate::rigidity::model::Model;
 use crate::rigidity::motions::{Motions, Twists};
 use crate::rigidity::stiffness::Stiffness;
-use crate::sparse::{Factor, Singular, Symbolic, map_chunks, map_range};
+use crate::sparse::{Factor, NotPositiveDefinite, Symbolic, map_chunks, map_range};
 use std::ops::Range;
 
 /// Bodies with more rows than this keep their motion as unknowns.
@@ -261,8 +261,8 @@ impl<'a> System<'a> {
     /// Factorises the resistance.
     ///
     /// # Errors
-    /// [`Singular`] if a motion meets no resistance even with the shift.
-    pub(super) fn factor(&self) -> Result<Factor<'_>, Singular> {
+    /// [`NotPositiveDefinite`] if a motion meets no resistance even with the shift.
+    pub(super) fn factor(&self) -> Result<Factor<'_>, NotPositiveDefinite> {
         Stiffness::new(self, None).factor()
     }
 

@@ -35,10 +35,20 @@ pub(crate) fn elimination_tree(
     parent
 }
 
-/// The places of a tree renumbered so that children come before their parents, each
-/// subtree is a range, and the largest subtree of a vertex comes last; this changes nothing
-/// in what fills (Liu 1990, The role of elimination trees in sparse factorization, 3).
-pub(crate) fn postorder(parent: &[Option<usize>]) -> Vec<usize> {
+/// Which child comes right before its parent.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Last {
+    /// The one with the largest subtree, so that the fewest updates wait (Liu 1986, On the
+    /// storage requirement in the out-of-core multifrontal method).
+    Largest,
+    /// The first of them.
+    Lowest,
+}
+
+/// The places of a tree renumbered so that children come before their parents and each
+/// subtree is a range; this changes nothing in what fills (Liu 1990, The role of
+/// elimination trees in sparse factorization, 3).
+pub(crate) fn postorder(parent: &[Option<usize>], last: Last) -> Vec<usize> {
     let count = parent.len();
     let mut size = vec![1_usize; count];
     let mut children = vec![Vec::new(); count];
@@ -58,7 +68,10 @@ pub(crate) fn postorder(parent: &[Option<usize>]) -> Vec<usize> {
     while let Some(k) = stack.pop() {
         walk.push(k);
         let mut below = std::mem::take(&mut children[k]);
-        below.sort_by_key(|&child| (size[child], child));
+        match last {
+            Last::Largest => below.sort_by_key(|&child| (size[child], child)),
+            Last::Lowest => below.reverse(),
+        }
         stack.extend(below);
     }
     walk.reverse();

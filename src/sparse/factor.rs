@@ -5,46 +5,13 @@
 //! independent; the way they are cut does not depend on the number of threads, so that
 //! results are the same bits on one thread and on many.
 
+use crate::sparse::error::NotPositiveDefinite;
 use crate::sparse::front::Workspace;
 use crate::sparse::panel::{Columns, pack};
 use crate::sparse::parallel::{map_range, worthwhile};
-use crate::sparse::symbolic::{Supernode, Symbolic};
-use crate::watch::Stopped;
+use crate::sparse::symbolic::{Entries, Supernode, Symbolic};
 use std::ops::Range;
 use std::sync::mpsc::channel;
-
-/// Where a symmetric matrix gets its entries from.
-pub(crate) trait Entries: Sync {
-    /// Hands all entries in the columns of `supernode` to `add`: as row group, column group
-    /// (places, row after or at column) and the column-major block, of which the lower
-    /// triangle counts if both are the same group.
-    fn entries(&self, supernode: usize, add: &mut dyn FnMut(usize, usize, &[f64]));
-}
-
-/// The matrix is not positive definite: a motion meets no resistance at all.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) struct Singular;
-
-/// Why there is no answer.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Halt {
-    /// A factorisation or decomposition failed.
-    Failed,
-    /// Nobody waits for it any more.
-    Stopped(Stopped),
-}
-
-impl From<Singular> for Halt {
-    fn from(_: Singular) -> Self {
-        Self::Failed
-    }
-}
-
-impl From<Stopped> for Halt {
-    fn from(stopped: Stopped) -> Self {
-        Self::Stopped(stopped)
-    }
-}
 
 /// Fronts of the top that are gathered before they are needed.
 const AHEAD: usize = 2;
@@ -67,12 +34,12 @@ impl<'a> Factor<'a> {
     /// Factorises.
     ///
     /// # Errors
-    /// [`Singular`] if a pivot is not positive.
+    /// [`NotPositiveDefinite`] if a pivot is not positive.
     pub(crate) fn new(
         symbolic: &'a Symbolic,
         entries: &dyn Entries,
         threads: usize,
-    ) -> Result<Self, Singular> {
+    ) -> Result<Self, NotPositiveDefinite> {
         let subtrees = symbolic.subtrees();
         let threads = worthwhile(threads, symbolic.unknowns());
         let (storage, offsets) = (Vec::new(), Vec::new());
@@ -102,7 +69,7 @@ impl<'a> Factor<'a> {
         &self,
         entries: &dyn Entries,
         handed: &[Vec<f64>],
-    ) -> Result<Vec<f64>, Singular> {
+    ) -> Result<Vec<f64>, NotPositiveDefinite> {
         let (symbolic, top) = (self.symbolic, &self.top);
         let mut work = Workspace::new(symbolic, self.threads);
         work.reserve(top.iter().copied(), handed);
@@ -186,7 +153,7 @@ fn eliminate_subtree(
     range: Range<usize>,
     work: &mut Workspace,
     entries: &dyn Entries,
-) -> Result<Vec<f64>, Singular> {
+) -> Result<Vec<f64>, NotPositiveDefinite> {
     work.reserve(range.clone(), &[]);
     let nodes = &work.symbolic.supernodes;
     let mut stored =

@@ -1,7 +1,7 @@
 //! One front: gathering, elimination, and the update for the parent.
 
-use crate::sparse::factor::{Entries, Singular};
-use crate::sparse::symbolic::{Supernode, Symbolic};
+use crate::sparse::error::NotPositiveDefinite;
+use crate::sparse::symbolic::{Entries, Supernode, Symbolic};
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::linalg::cholesky::llt::factor::{cholesky_in_place, cholesky_in_place_scratch};
 use faer::linalg::matmul::matmul;
@@ -132,7 +132,7 @@ impl<'a> Workspace<'a> {
         s: usize,
         columns: &mut [f64],
         handed: &[Vec<f64>],
-    ) -> Result<(), Singular> {
+    ) -> Result<(), NotPositiveDefinite> {
         let node = &self.symbolic.supernodes[s];
         let (height, own) = (node.width + node.below, usize::from(node.odd_depth));
         self.number_rows(node);
@@ -209,7 +209,7 @@ impl<'a> Workspace<'a> {
         node: &Supernode,
         columns: &mut [f64],
         update: &mut [f64],
-    ) -> Result<(), Singular> {
+    ) -> Result<(), NotPositiveDefinite> {
         let (width, below) = (node.width, node.below);
         let height = width + below;
         let mut front = MatMut::from_column_major_slice_mut(columns, height, width);
@@ -228,7 +228,7 @@ impl<'a> Workspace<'a> {
                 MemStack::new(&mut self.scratch),
                 Default::default(),
             )
-            .map_err(|_| Singular)?;
+            .map_err(|_| NotPositiveDefinite)?;
             let half = if large { bottom.nrows() / 2 } else { 0 };
             let (upper, lower) = bottom.rb_mut().split_at_row_mut(half);
             let top = top.rb();

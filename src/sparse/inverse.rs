@@ -5,7 +5,8 @@
 //! rows below are part of (Takahashi, Fagan and Chin 1973; by supernodes Lin et al. 2011).
 //! Takes two to three times as long as the factorisation.
 
-use crate::sparse::factor::{Factor, Halt};
+use crate::sparse::error::Halt;
+use crate::sparse::factor::Factor;
 use crate::sparse::parallel::map_range;
 use crate::sparse::symbolic::{Supernode, Symbolic};
 use crate::watch::Watch;

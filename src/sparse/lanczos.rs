@@ -5,7 +5,7 @@
 
 use crate::sparse::basis::Basis;
 use crate::sparse::block::Block;
-use crate::sparse::factor::Halt;
+use crate::sparse::error::Halt;
 use crate::sparse::panel::RHS;
 use crate::tolerance::MODE_RESIDUAL;
 use crate::watch::Watch;

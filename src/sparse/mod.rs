@@ -1,13 +1,22 @@
 //! Sparse symmetric systems: order of elimination, factor, solves, eigenvalues.
 //!
-//! In: a graph of *groups* of unknowns that are eliminated together (the six of a node),
-//! and blocks between them ([`Entries`]). Out: a Cholesky [`Factor`], which solves for many
-//! right-hand sides at once and gives blocks of its inverse; eigenvectors of what can be
-//! applied to a [`Block`] ([`largest`]). One [`Symbolic`] serves any number of factors, and
-//! one factor any number of solves. The room knows nothing of bodies, meshes or energies.
+//! In: a [`SymmetricMatrix`]. Out: a [`Cholesky`] factor, whose pattern is analysed once and
+//! which takes any number of matrices and right-hand sides, on one thread. A complex system
+//! is a real one with two unknowns, `re` and `im`, for each.
+//!
+//! Where one large matrix meets many right-hand sides (`rigidity`), its unknowns come in
+//! *groups* that are eliminated together, such as the six of a pin, its blocks from
+//! `Entries`; `Factor` works on all threads, solves for eight right-hand sides at once and
+//! gives blocks of its inverse, and `largest` finds eigenvectors of what can be applied to a
+//! `Block`. One `Symbolic` serves any number of factors. Why both:
+//! docs/decisions/0016-own-multifrontal-factor.md.
+//!
+//! The room knows nothing of bodies, meshes or energies.
 //!
 //! | file | what it does | source |
 //! |---|---|---|
+//! | `matrix` | compressed columns | |
+//! | `cholesky` | factor of a matrix in compressed columns | `faer` |
 //! | `ordering` | approximate minimum degree | Amestoy, Davis and Duff 1996 (`feral-amd`) |
 //! | `etree` | elimination tree, postorder | Liu 1986, 1990 |
 //! | `symbolic` | column patterns, relaxed supernodes | Ashcraft and Grimes 1989 |
@@ -20,11 +29,14 @@
 
 mod basis;
 mod block;
+mod cholesky;
+mod error;
 mod etree;
 mod factor;
 mod front;
 mod inverse;
 mod lanczos;
+mod matrix;
 mod ordering;
 mod panel;
 mod parallel;
@@ -32,9 +44,16 @@ mod solve;
 mod symbolic;
 mod tall;
 
+pub use cholesky::{Cholesky, Ordering};
+pub use error::NotPositiveDefinite;
+pub use matrix::SymmetricMatrix;
+
 pub(crate) use block::{Block, orthonormalise, project_out};
-pub(crate) use factor::{Entries, Factor, Halt, Singular};
+pub(crate) use error::Halt;
+pub(crate) use etree::Last;
+pub(crate) use factor::Factor;
 pub(crate) use lanczos::{Operator, largest, random_block};
+pub(crate) use ordering::elimination_order;
 pub(crate) use panel::RHS;
 pub(crate) use parallel::{map_chunks, map_range, worthwhile};
-pub(crate) use symbolic::Symbolic;
+pub(crate) use symbolic::{Entries, Symbolic};

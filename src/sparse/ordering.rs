@@ -1,15 +1,15 @@
 //! An order of elimination that fills little: approximate minimum degree.
 
-use crate::sparse::etree::{elimination_tree, postorder};
+use crate::sparse::etree::{Last, elimination_tree, postorder};
 use feral_amd::{CscPattern, amd_order};
 
 /// The vertices of a graph in an order of little fill, each right after the subtree of the
 /// elimination tree below it; `neighbours` lists each edge both ways, without loops, each
 /// once.
-pub(crate) fn elimination_order(neighbours: &[Vec<u32>]) -> Vec<usize> {
+pub(crate) fn elimination_order(neighbours: &[Vec<u32>], last: Last) -> Vec<usize> {
     let order = minimum_degree(neighbours);
     let tree = elimination_tree(&order, neighbours);
-    postorder(&tree).into_iter().map(|k| order[k]).collect()
+    postorder(&tree, last).into_iter().map(|k| order[k]).collect()
 }
 
 fn minimum_degree(neighbours: &[Vec<u32>]) -> Vec<usize> {

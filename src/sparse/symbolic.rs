@@ -4,7 +4,7 @@
 //! eliminated together; the graph is then six times smaller than the matrix. Ordering by
 //! approximate minimum degree (`feral-amd`), then supernodes with relaxed merging.
 
-use crate::sparse::etree::{elimination_tree, places};
+use crate::sparse::etree::{Last, elimination_tree, places};
 use crate::sparse::ordering::elimination_order;
 use crate::sparse::panel::packed;
 use std::ops::Range;
@@ -61,7 +61,7 @@ impl Symbolic {
     /// Analyses groups of these sizes that touch each other as `neighbours` lists (both
     /// ways, without the group itself, each once).
     pub(crate) fn new(sizes: &[usize], neighbours: &[Vec<u32>]) -> Self {
-        let order = elimination_order(neighbours);
+        let order = elimination_order(neighbours, Last::Largest);
         let place = places(&order);
         let mut start = vec![0];
         for &group in &order {
@@ -127,6 +127,14 @@ impl Symbolic {
             subtrees.extend(&self.supernodes[s].children);
         }
     }
+}
+
+/// Where a symmetric matrix gets its entries from.
+pub(crate) trait Entries: Sync {
+    /// Hands all entries in the columns of `supernode` to `add`: as row group, column group
+    /// (places, row after or at column) and the column-major block, of which the lower
+    /// triangle counts if both are the same group.
+    fn entries(&self, supernode: usize, add: &mut dyn FnMut(usize, usize, &[f64]));
 }
 
 /// Parents, and for each place the later places its column reaches, ascending.

@@ -9,8 +9,9 @@
 //! the shortest way to exact planarity.
 
 use crate::design::planarise::energy::{Energy, Feet, State};
-use crate::design::planarise::matrix::{Factor, NormalMatrix, SIZE};
+use crate::design::planarise::matrix::{NormalMatrix, SIZE};
 use crate::geometry::Vector3;
+use crate::sparse::{Cholesky, Ordering};
 use crate::tolerance::{LEAST_DAMPING, PLANAR};
 use crate::watch::{Stopped, Watch};
 
@@ -79,7 +80,7 @@ struct Search<'a> {
     energy: &'a mut Energy,
     constant: NormalMatrix,
     matrix: NormalMatrix,
-    factor: Factor,
+    factor: Cholesky,
     target: f64,
     damping: f64,
     /// By how much damping grows if the next step fails.
@@ -98,7 +99,8 @@ pub(super) fn descend(
     watch: &mut dyn Watch,
 ) -> Result<Found, Broken> {
     let (constant, matrix) = (energy.constant(), energy.constant());
-    let factor = Factor::new(&matrix).ok_or(Broken::TooLarge)?;
+    let factor = Cholesky::analysed(&matrix.lower, Ordering::AsNumbered);
+    let factor = factor.ok_or(Broken::TooLarge)?;
     let mut state = energy.given.start.clone();
     let mut search = Search {
         energy,
@@ -185,8 +187,11 @@ impl Search<'_> {
             self.matrix.shift(self.damping - shifted);
             shifted = self.damping;
             let mut change: Vec<f64> = pull.iter().map(|pull| -pull).collect();
-            let solved = self.factor.solve(&self.matrix, &mut change);
-            let next = solved.then(|| self.place(moved(&from.state, &change)));
+            let factored = self.factor.factorise(&self.matrix.lower).is_ok();
+            let next = factored.then(|| {
+                self.factor.solve(&mut change);
+                self.place(moved(&from.state, &change))
+            });
             let promised: f64 = change
                 .iter()
                 .zip(&pull)

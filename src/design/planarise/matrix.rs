@@ -1,92 +1,33 @@
 //! Normal equations in blocks of 6 × 6, one per pair of nodes that a residual couples.
 //!
 //! Nodes are numbered in the order of elimination (approximate minimum degree on the graph
-//! of nodes, not of unknowns), so that `faer` takes the matrix as it stands. The symbolic
-//! factorisation is made once.
+//! of nodes, not of unknowns), so that the matrix is factorised as it stands.
 
-use faer::dyn_stack::{MemBuffer, MemStack};
-use faer::sparse::linalg::SupernodalThreshold;
-use faer::sparse::linalg::cholesky::{
-    CholeskySymbolicParams, SymbolicCholesky, SymmetricOrdering,
-    factorize_symbolic_cholesky,
-};
-use faer::sparse::{SparseColMatRef, SymbolicSparseColMatRef};
-use faer::{Conj, MatMut, Par, Side};
-use feral_amd::{CscPattern, amd_order};
+use crate::sparse::{Last, SymmetricMatrix, elimination_order};
 
 /// Unknowns of a node: three of its position, three of its axis.
 pub(super) const SIZE: usize = 6;
 
 /// An order of nodes in which eliminating them fills little; `order[k]` is the node that
 /// comes as the `k`-th. `pairs` are the coupled nodes.
-pub(super) fn elimination_order(nodes: usize, pairs: &[[usize; 2]]) -> Vec<usize> {
-    let mut columns: Vec<Vec<i32>> = vec![Vec::new(); nodes];
+pub(super) fn node_order(nodes: usize, pairs: &[[usize; 2]]) -> Vec<usize> {
+    let mut neighbours: Vec<Vec<u32>> = vec![Vec::new(); nodes];
     for &[i, j] in pairs {
-        columns[i].push(j as i32);
-        columns[j].push(i as i32);
+        neighbours[i].push(j as u32);
+        neighbours[j].push(i as u32);
     }
-    let mut starts = vec![0];
-    let mut rows = Vec::new();
-    for column in &mut columns {
-        column.sort_unstable();
-        column.dedup();
-        rows.extend_from_slice(column);
-        starts.push(rows.len() as i32);
+    for list in &mut neighbours {
+        list.sort_unstable();
+        list.dedup();
     }
-    let order: Vec<usize> = CscPattern::new(nodes, &starts, &rows)
-        .and_then(|pattern| amd_order(&pattern).ok())
-        .map_or_else(
-            || (0..nodes).collect(),
-            |order| order.into_iter().map(|node| node as usize).collect(),
-        );
-    postordered(order, &columns)
-}
-
-/// The same order but for children coming right before their parents in the elimination
-/// tree, as the factorisation by supernodes asks; this changes nothing in what fills.
-/// (Liu 1990, The role of elimination trees in sparse factorization, 3 and 4.2.)
-fn postordered(order: Vec<usize>, columns: &[Vec<i32>]) -> Vec<usize> {
-    const NONE: usize = usize::MAX;
-    let mut place = vec![0; order.len()];
-    order.iter().enumerate().for_each(|(k, &node)| place[node] = k);
-    let mut parent = vec![NONE; order.len()];
-    let mut ancestor = parent.clone();
-    for (k, &node) in order.iter().enumerate() {
-        for &neighbour in &columns[node] {
-            let mut at = place[neighbour as usize];
-            while at < k {
-                let up = std::mem::replace(&mut ancestor[at], k);
-                if up == NONE {
-                    parent[at] = k;
-                    break;
-                }
-                at = up;
-            }
-        }
-    }
-    let mut children = vec![Vec::new(); order.len()];
-    let mut stack = Vec::new();
-    for k in (0..order.len()).rev() {
-        if parent[k] == NONE { stack.push(k) } else { children[parent[k]].push(k) }
-    }
-    // Parents before children and then turned round.
-    stack.reverse();
-    let mut turned = Vec::with_capacity(order.len());
-    while let Some(k) = stack.pop() {
-        turned.push(order[k]);
-        stack.append(&mut children[k]);
-    }
-    turned.reverse();
-    turned
+    elimination_order(&neighbours, Last::Lowest)
 }
 
 /// The lower half of a symmetric matrix of 6 × 6 blocks.
 pub(super) struct NormalMatrix {
     /// For each node, the nodes after it that it is coupled with, ascending.
     below: Vec<Vec<usize>>,
-    columns: Vec<usize>,
-    rows: Vec<usize>,
-    values: Vec<f64>,
+    pub(super) lower: SymmetricMatrix,
 }
 
 impl NormalMatrix {
@@ -111,20 +52,20 @@ impl NormalMatrix {
             }
         }
         let values = vec![0.0; rows.len()];
-        Self { below, columns, rows, values }
+        Self { below, lower: SymmetricMatrix { columns, rows, values } }
     }
 
     /// Sets all values to those of another matrix of the same pattern.
     pub(super) fn copy_from(&mut self, other: &Self) {
-        self.values.copy_from_slice(&other.values);
+        self.lower.values.copy_from_slice(&other.lower.values);
     }
 
     /// Adds `a aᵀ` to the block of a node.
     pub(super) fn add_square(&mut self, node: usize, a: &[f64; SIZE]) {
         for c in 0..SIZE {
-            let start = self.columns[SIZE * node + c];
+            let start = self.lower.columns[SIZE * node + c];
             for r in c..SIZE {
-                self.values[start + r - c] += a[r] * a[c];
+                self.lower.values[start + r - c] += a[r] * a[c];
             }
         }
     }
@@ -139,8 +80,10 @@ impl NormalMatrix {
         let (low, high, lower, upper) = if i < j { (i, j, b, a) } else { (j, i, a, b) };
         let Ok(place) = self.below[low].binary_search(&high) else { return };
         for (c, by) in upper.iter().enumerate() {
-            let start = self.columns[SIZE * low + c] + (SIZE - c) + SIZE * place;
-            for (value, part) in self.values[start..start + SIZE].iter_mut().zip(lower) {
+            let start = self.lower.columns[SIZE * low + c] + (SIZE - c) + SIZE * place;
+            for (value, part) in
+                self.lower.values[start..start + SIZE].iter_mut().zip(lower)
+            {
                 *value += part * by;
             }
         }
@@ -151,7 +94,7 @@ impl NormalMatrix {
     pub(super) fn add_diagonal(&mut self, [i, j]: [usize; 2], diagonal: &[f64; SIZE]) {
         let (low, high) = (i.min(j), i.max(j));
         for (c, part) in diagonal.iter().enumerate() {
-            let start = self.columns[SIZE * low + c];
+            let start = self.lower.columns[SIZE * low + c];
             let place = if low == high {
                 0
             } else {
@@ -160,105 +103,22 @@ impl NormalMatrix {
                     Err(_) => return,
                 }
             };
-            self.values[start + place] += part;
+            self.lower.values[start + place] += part;
         }
     }
 
     /// Adds a number to the whole diagonal.
     pub(super) fn shift(&mut self, by: f64) {
-        for &start in &self.columns[..self.size()] {
-            self.values[start] += by;
+        for &start in &self.lower.columns[..self.lower.size()] {
+            self.lower.values[start] += by;
         }
-    }
-
-    /// The pattern of the upper half, by columns.
-    fn upper(&self) -> (Vec<usize>, Vec<usize>) {
-        let size = self.size();
-        let mut columns = vec![0; size + 1];
-        self.rows.iter().for_each(|&row| columns[row + 1] += 1);
-        for k in 0..size {
-            columns[k + 1] += columns[k];
-        }
-        let mut next = columns.clone();
-        let mut rows = vec![0; self.rows.len()];
-        for column in 0..size {
-            for &row in &self.rows[self.columns[column]..self.columns[column + 1]] {
-                rows[next[row]] = column;
-                next[row] += 1;
-            }
-        }
-        (columns, rows)
-    }
-
-    fn size(&self) -> usize {
-        self.columns.len() - 1
-    }
-}
-
-/// Factors matrices of one pattern.
-pub(super) struct Factor {
-    symbolic: SymbolicCholesky<usize>,
-    lower: Vec<f64>,
-    scratch: MemBuffer,
-}
-
-impl Factor {
-    /// Finds the pattern of the factor; `None` if it is larger than memory can hold.
-    pub(super) fn new(matrix: &NormalMatrix) -> Option<Self> {
-        let size = matrix.size();
-        // Without a permutation `faer` 0.24 wants the upper half here, whatever the side.
-        let (columns, rows) = matrix.upper();
-        let pattern =
-            SymbolicSparseColMatRef::new_checked(size, size, &columns, None, &rows);
-        let params = CholeskySymbolicParams {
-            supernodal_flop_ratio_threshold: SupernodalThreshold::FORCE_SUPERNODAL,
-            ..CholeskySymbolicParams::default()
-        };
-        let order = SymmetricOrdering::Identity;
-        let symbolic =
-            factorize_symbolic_cholesky(pattern, Side::Upper, order, params).ok()?;
-        let numeric =
-            symbolic.factorize_numeric_llt_scratch::<f64>(Par::Seq, Default::default());
-        let solve = symbolic.solve_in_place_scratch::<f64>(1, Par::Seq);
-        let scratch = MemBuffer::try_new(numeric.or(solve)).ok()?;
-        let lower = vec![0.0; symbolic.len_val()];
-        Some(Self { symbolic, lower, scratch })
-    }
-
-    /// Solves `matrix x = right` in place; false if the matrix is not positive definite.
-    pub(super) fn solve(&mut self, matrix: &NormalMatrix, right: &mut [f64]) -> bool {
-        let size = matrix.size();
-        let pattern = SymbolicSparseColMatRef::new_checked(
-            size,
-            size,
-            &matrix.columns,
-            None,
-            &matrix.rows,
-        );
-        let factored = self.symbolic.factorize_numeric_llt(
-            &mut self.lower,
-            SparseColMatRef::new(pattern, &matrix.values),
-            Side::Lower,
-            Default::default(),
-            Par::Seq,
-            MemStack::new(&mut self.scratch),
-            Default::default(),
-        );
-        let Ok(factor) = factored else { return false };
-        let right = MatMut::from_column_major_slice_mut(right, size, 1);
-        factor.solve_in_place_with_conj(
-            Conj::No,
-            right,
-            Par::Seq,
-            MemStack::new(&mut self.scratch),
-        );
-        true
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::sparse::{Cholesky, Ordering};
 
     #[test]
     fn a_small_system_is_solved_as_by_hand() {
@@ -286,7 +146,9 @@ mod tests {
         }
         let right: Vec<f64> = (0..18).map(|k| 1.0 + k as f64).collect();
         let mut found = right.clone();
-        assert!(Factor::new(&matrix).unwrap().solve(&matrix, &mut found));
+        let mut factor = Cholesky::analysed(&matrix.lower, Ordering::AsNumbered).unwrap();
+        factor.factorise(&matrix.lower).unwrap();
+        factor.solve(&mut found);
         let wanted = dense.lu().solve(&nalgebra::DVector::from_vec(right)).unwrap();
         for (found, wanted) in found.iter().zip(wanted.iter()) {
             assert!((found - wanted).abs() < 1e-12, "{found} {wanted}");

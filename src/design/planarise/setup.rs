@@ -1,7 +1,7 @@
 //! From a mesh and options to the energy that is minimised.
 
 use crate::design::planarise::energy::{Energy, Fin, Given, State};
-use crate::design::planarise::matrix::elimination_order;
+use crate::design::planarise::matrix::node_order;
 use crate::design::planarise::options::Options;
 use crate::design::planarise::surface::{Surface, rim_beside, unit};
 use crate::design::planarise::terms::{Planarity, wishes};
@@ -112,7 +112,7 @@ pub(super) fn task(
         free,
         place: (0..nodes).collect(),
     };
-    let order = elimination_order(nodes, &given.coupled());
+    let order = node_order(nodes, &given.coupled());
     let given = given.renumbered(&order);
     let energy = Energy {
         planarity: Planarity::new(&options.weights),
