@@ -141,6 +141,9 @@ pub const SAME_LENGTH: f64 = 2e-4;
 /// Slack of spacing and margin in files read back, mm.
 pub const SPACING_SLACK_MM: f64 = 1e-3;
 
+/// Sides of a drawn line whose directions differ by less meet without a corner, radians.
+pub const SMOOTH_CORNER: f64 = 1e-6;
+
 /// Scales of a whole drawing that differ by less are taken for equal.
 pub const SAME_SCALE: f64 = 2e-3;
 

@@ -7,6 +7,7 @@ use crate::geometry::{Contour, Point2, Vector2, predicates, trig};
 use crate::manifest::{ConnectorEntry, ConnectorKind, Manifest, RunEntry, Worst};
 use crate::proof::figures::micro;
 use crate::proof::finding::{ProofFinding, Spot};
+use crate::proof::fit;
 use crate::proof::matching::Found;
 use crate::proof::sheets::Read;
 use crate::structure::Structure;
@@ -145,8 +146,10 @@ impl<'a> Known<'a> {
     /// once.
     pub(super) fn stands(&self, connector: &'a ConnectorEntry) -> Option<Vec<Stand<'a>>> {
         let arms = &self.structure.nodes().get(connector.node)?.arms;
-        let bearing =
-            |to: usize| arms.iter().find(|arm| arm.to == to).map(|arm| arm.angle);
+        let bearing = |to: usize| {
+            let known = arms.iter().any(|arm| arm.to == to);
+            known.then(|| fit::bearing(self.structure, connector.node, to))
+        };
         let mut stands: Vec<Stand> = Vec::new();
         for slot in &connector.slots {
             let ends = self.strips.get(slot.fin.as_str())?.ends_at(connector.node);

@@ -1,9 +1,22 @@
 //! What a slit must be, from the structure alone: which fins stand about the node, at
-//! which angles, and how thick they are (fabrication notes §4.1 and correction (i)).
+//! which angles, and how thick they are.
 
-use crate::geometry::trig;
+use crate::geometry::{Vector3, trig};
 use crate::structure::Structure;
 use std::f64::consts::{PI, TAU};
+
+/// Direction of a node as seen from another along that one's axis: radians,
+/// counter-clockwise from a direction that is the same for all around it. Worked out from
+/// places and axes; what the structure lists as angles of its arms is what parts are made
+/// from.
+pub(super) fn bearing(structure: &Structure, node: usize, to: usize) -> f64 {
+    let at = &structure.nodes()[node];
+    let way = structure.nodes()[to].position - at.position;
+    let mut reference = Vector3::zeros();
+    reference[at.axis.iamin()] = 1.0;
+    let across = reference - at.axis * at.axis.dot(&reference);
+    trig::atan2(at.axis.dot(&across.cross(&way)), across.dot(&way))
+}
 
 /// Bearings of a strip's two arms at a node, as seen along the axis: toward the previous
 /// and the next node; past an end the fin goes straight on.
@@ -12,8 +25,8 @@ pub(super) fn arms(
     node: usize,
     [before, after]: [Option<usize>; 2],
 ) -> Option<[f64; 2]> {
-    let arms = &structure.nodes()[node].arms;
-    let bearing = |to: usize| arms.iter().find(|arm| arm.to == to).map(|arm| arm.angle);
+    let bearing =
+        |to: usize| structure.nodes()[node].arm(to).map(|_| bearing(structure, node, to));
     match (before, after) {
         (Some(before), Some(after)) => Some([bearing(before)?, bearing(after)?]),
         (Some(before), None) => bearing(before).map(|angle| [angle, angle + PI]),

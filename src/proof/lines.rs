@@ -5,11 +5,11 @@ use crate::export::LAYERS;
 use crate::geometry::Contour;
 use crate::geometry::predicates::contains;
 use crate::proof::finding::{ProofFinding, Spot};
+use crate::proof::kerf::without_kerf;
 use crate::proof::matching::Found;
 use crate::proof::read::{Curve, Drawing, is_cut};
 use crate::proof::shape::Edges;
 use crate::proof::sheets::{Read, finite};
-use crate::sheets::Kerf;
 use crate::tolerance::{ARC_SAGITTA_MM, IN_PLACE_MM, SAME_SHAPE_MM};
 
 impl Read<'_> {
@@ -63,7 +63,7 @@ impl Read<'_> {
                 let ccw = contour.signed_area() > 0.0;
                 let contour = if ccw { contour.reversed() } else { contour };
                 // Drawn clockwise, a hole grows back by what its line was drawn inside.
-                Kerf::from_width_mm(found.kerf).undone(&contour)
+                without_kerf(&contour, found.kerf)
             })
             .collect()
     }

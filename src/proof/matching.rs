@@ -8,8 +8,8 @@
 
 use crate::geometry::{Contour, Point2, Vector2};
 use crate::manifest::{Manifest, PartEntry};
+use crate::proof::kerf::without_kerf;
 use crate::proof::shape::{Edges, Motion, bounds};
-use crate::sheets::Kerf;
 use crate::tolerance::{ARC_SAGITTA_MM, PROOF_REACH_MM, SAME_SHAPE_MM};
 
 /// Share of the corners that must agree.
@@ -239,7 +239,7 @@ struct Try<'a> {
 impl Try<'_> {
     /// The drawn contour without its kerf; turned over, if that is tried.
     fn without_kerf(&self, kerf: f64) -> Contour {
-        let contour = Kerf::from_width_mm(kerf).undone(&self.drawn.contour);
+        let contour = without_kerf(&self.drawn.contour, kerf);
         if !self.is_mirrored {
             return contour;
         }

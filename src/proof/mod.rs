@@ -16,6 +16,7 @@ mod figures;
 mod files;
 mod finding;
 mod fit;
+mod kerf;
 mod label;
 mod layout;
 mod lines;

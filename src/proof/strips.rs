@@ -319,14 +319,18 @@ impl<'a> Strips<'a> {
             slits.iter().any(|(other, _)| std::ptr::eq(&self.drawn[*other], drawn))
         });
         let arms = &self.structure.nodes()[node].arms;
-        let own = arms.iter().find(|arm| arm.to == inner)?.angle;
+        let bearing = |to: usize| fit::bearing(self.structure, node, to);
+        self.structure.nodes()[node].arm(inner)?;
         if held || arms.len() < 2 {
             return None;
         }
         let others = arms.iter().filter(|arm| arm.to != inner);
         let thickness = self.manifest.material.thickness;
         let needed_mm = others
-            .map(|arm| fit::reach(fit::between(own, arm.angle), thickness))
+            .map(|arm| {
+                let angle = fit::between(bearing(inner), bearing(arm.to));
+                fit::reach(angle, thickness)
+            })
             .fold(0.0, f64::max);
         let [bottom, top] = [strip.axes[place].bottom, strip.axes[place].top];
         let up = (top - bottom).try_normalize(0.0)?;

@@ -20,9 +20,4 @@ impl Kerf {
     pub fn compensated(self, contour: &Contour) -> Contour {
         offset(contour, self.width / 2.0)
     }
-
-    /// The contour whose path to cut is `path`: what [`Kerf::compensated`] does, undone.
-    pub fn undone(self, path: &Contour) -> Contour {
-        offset(path, -self.width / 2.0)
-    }
 }

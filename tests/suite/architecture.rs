@@ -169,3 +169,27 @@ fn only_sheets_know_how_far_the_kerf_moves_a_line() {
     let users = found(&["offset::offset;"], |path| path == "sheets/kerf.rs");
     assert!(users.is_empty(), "{}", users.join("\n"));
 }
+
+/// What docs/proof.md says that the proof shares with the makers, and no more.
+#[test]
+fn the_proof_shares_only_what_its_page_lists() {
+    let shared = "diagnostic json geometry lettering structure drawing manifest parts export \
+                  sheets proof tolerance units ids";
+    let shared: Vec<&str> = shared.split_whitespace().collect();
+    let mut offences = Vec::new();
+    for source in sources().into_iter().filter(|source| source.module() == "proof") {
+        for (number, line) in source.code() {
+            let others = named(line).into_iter();
+            let others = others.filter(|other| !shared.contains(&&**other));
+            offences.extend(others.map(|o| format!("{}:{number}: {o}", source.path)));
+            let maker = ["offset", "crate::parts::", "crate::export::"];
+            let allowed = ["slit.offset", "together", "LAYERS"];
+            if maker.iter().any(|word| line.contains(word))
+                && !allowed.iter().any(|word| line.contains(word))
+            {
+                offences.push(format!("{}:{number}: {}", source.path, line.trim()));
+            }
+        }
+    }
+    assert!(offences.is_empty(), "{}", offences.join("\n"));
+}
