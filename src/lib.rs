@@ -6,7 +6,8 @@
 //!    [`Structure`](structure::Structure): nodes with axes, planar fins, strips of fins.
 //! 2. [`rigidity`]: rigid or flexible, as a verdict.
 //! 3. [`parts`]: strips are unfolded, slit where they cross, spliced and marked.
-//! 4. [`nest`]: parts find their places on sheets of the stock.
+//! 4. [`nest`]: parts find their places on sheets of the stock; [`drawing`] reads parts
+//!    that others drew.
 //! 5. [`sheets`]: what the laser does, kerf included, independent of any format.
 //! 6. [`gate`]: only what nothing forbids, the verdict first, is [`Approved`](gate::Approved).
 //! 7. [`export`]: DXF, SVG, PDF and PNG. [`report`]: the manifest and the bill of parts.
@@ -37,6 +38,7 @@
 pub mod cli;
 pub mod design;
 pub mod diagnostic;
+pub mod drawing;
 pub mod export;
 pub mod fabrication;
 pub mod gate;

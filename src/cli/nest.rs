@@ -10,11 +10,11 @@ use crate::cli::nest_input::{self, Order, Task};
 use crate::cli::nest_progress::Progress;
 use crate::cli::outcome::{End, Failure, print};
 use crate::diagnostic::{Finding, Located, Severity};
-use crate::export::{self, PngLook};
+use crate::drawing::{Format, drawn_parts};
+use crate::export::{self, PngLook, known_layers};
 use crate::gate::approve_loose;
 use crate::json;
 use crate::nest::{self, Effort, Found, NestError, Shape, Stock};
-use crate::proof::{Format, drawn_parts};
 use crate::report::{Nested, free_maps, layout_json, layout_sheets};
 use crate::settings::Settings;
 use crate::watch::Watch;
@@ -64,7 +64,7 @@ fn order(args: &NestArgs, name: &str) -> Result<(Order, Vec<Finding>), Failure> 
         }
     };
     let drawn =
-        drawn_parts(&input::bytes_of(&args.input)?, format).map_err(Failure::of)?;
+        drawn_parts(&input::bytes_of(&args.input)?, format, &known_layers()).map_err(Failure::of)?;
     nest_drawing::order(&drawn, name).map_err(Failure::of)
 }
 

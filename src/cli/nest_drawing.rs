@@ -2,9 +2,9 @@
 
 use crate::cli::nest_input::{NestInputError, Order, Task};
 use crate::diagnostic::{Finding, Located, Place};
-use crate::geometry::{Contour, Point2};
+use crate::drawing::{self, Curve, Drawn};
+use crate::geometry::{Contour, Point2, Vertex};
 use crate::nest::{self, Layout, Shape, Turns};
-use crate::proof::Drawn;
 use crate::report::Lines;
 use crate::sheets::{Operation, Path};
 use crate::tolerance::ARC_SAGITTA_MM;
@@ -80,7 +80,7 @@ pub(super) fn order(
         });
         let holes = holes.map(|hole| (Operation::CutInner, Path::Closed(hole.clone())));
         let outline = (Operation::CutOuter, Path::Closed(part.outline.clone()));
-        let all = part.marks.iter().cloned().chain(holes).chain([outline]);
+        let all = part.marks.iter().map(mark).chain(holes).chain([outline]);
         lines.insert(name, all.collect());
     }
     let notes = notes(drawn, &shapes).into_iter().map(Finding::from).collect();
@@ -124,4 +124,22 @@ fn notes(drawn: &Drawn, shapes: &[Shape]) -> Vec<DrawingNote> {
         });
     }
     notes
+}
+
+/// Open cuts are cut before the outline; what is on no layer of ours is engraved, which can
+/// do no harm.
+fn mark(curve: &Curve) -> (Operation, Path) {
+    let operation = match curve.layer {
+        "SCORE" => Operation::Score,
+        layer if drawing::is_cut(layer) => Operation::CutInner,
+        _ => Operation::Engrave,
+    };
+    if curve.closed {
+        return (operation, Path::Closed(curve.contour()));
+    }
+    let mut vertices = curve.vertices.clone();
+    if let Some(last) = vertices.last_mut() {
+        *last = Vertex::line(last.point);
+    }
+    (operation, Path::Open(Contour { vertices }.flattened(ARC_SAGITTA_MM)))
 }

@@ -1,5 +1,6 @@
 //! The layers of a cut file: their names, colours and order.
 
+use crate::drawing::KnownLayer;
 use crate::sheets::{Operation, Path, Sheet};
 
 /// A layer of a cut file.
@@ -23,6 +24,11 @@ pub const LAYERS: [Layer; 5] = [
     of(Operation::CutOuter, 1, [255, 0, 0]),
     Layer { name: "SHEET", aci: 8, rgb: [128, 128, 128], operation: None },
 ];
+
+/// The layers as a reader of drawings looks for them.
+pub fn known_layers() -> [KnownLayer; 5] {
+    LAYERS.map(|layer| KnownLayer { name: layer.name, rgb: layer.rgb })
+}
 
 const fn of(operation: Operation, aci: u8, rgb: [u8; 3]) -> Layer {
     Layer { name: operation.layer(), aci, rgb, operation: Some(operation) }

@@ -1,12 +1,13 @@
 //! The drawings of a group of files, format by format.
 
+use crate::drawing::{Drawing, DrawingError, KnownLayer, read_dxf, read_pdf, read_svg};
+use crate::export::known_layers;
 use crate::manifest::{Manifest, SheetEntry};
 use crate::proof::JobFiles;
 use crate::proof::finding::{ProofFinding, Spot};
-use crate::proof::read::{Drawing, DrawingError, read_dxf, read_pdf, read_svg};
 use crate::proof::sheets::Files;
 
-type Reader = fn(&[u8]) -> Result<Drawing, DrawingError>;
+type Reader = fn(&[u8], &[KnownLayer]) -> Result<Drawing, DrawingError>;
 
 /// Formats with a file for each sheet.
 const SINGLE: [(&str, Reader); 2] = [("dxf", read_dxf), ("svg", read_svg)];
@@ -47,11 +48,11 @@ pub(super) fn formats(
 fn read<T>(
     path: &str,
     files: &JobFiles,
-    reader: fn(&[u8]) -> Result<T, DrawingError>,
+    reader: fn(&[u8], &[KnownLayer]) -> Result<T, DrawingError>,
     facts: &mut Vec<ProofFinding>,
 ) -> Option<T> {
     let spot = Spot::file(path);
-    match files.get(path).map(|bytes| reader(bytes)) {
+    match files.get(path).map(|bytes| reader(bytes, &known_layers())) {
         Some(Ok(read)) => return Some(read),
         Some(Err(error)) => {
             let reason = error.to_string();

@@ -1,13 +1,13 @@
 //! Lines that are no part's outline: drawn twice, open, holes, and what differs between
 //! formats.
 
+use crate::drawing::{Curve, Drawing, is_cut};
 use crate::export::LAYERS;
 use crate::geometry::Contour;
 use crate::geometry::predicates::contains;
 use crate::proof::finding::{ProofFinding, Spot};
 use crate::proof::kerf::without_kerf;
 use crate::proof::matching::Found;
-use crate::proof::read::{Curve, Drawing, is_cut};
 use crate::proof::shape::Edges;
 use crate::proof::sheets::{Read, finite};
 use crate::tolerance::{ARC_SAGITTA_MM, IN_PLACE_MM, SAME_SHAPE_MM};

@@ -20,11 +20,9 @@ mod kerf;
 mod label;
 mod layout;
 mod lines;
-mod loose;
 mod matching;
 mod measure;
 mod outline;
-mod read;
 mod refold;
 mod shape;
 mod sheets;
@@ -32,8 +30,6 @@ mod strips;
 
 pub use figures::{NodeFigure, PartFigure, SlitFigure};
 pub use finding::{ProofFinding, Spot};
-pub use loose::{Drawn, DrawnPart, Format, drawn_parts};
-pub use read::DrawingError;
 
 use crate::diagnostic::{Finding, Place, passes};
 use crate::manifest::{self, Limits, Manifest, ProofEntry, Worst};

@@ -1,12 +1,12 @@
 //! The sheets of one format: read, scaled back, matched with what is listed.
 
+use crate::drawing::Drawing;
 use crate::geometry::Point2;
 use crate::manifest::{Manifest, PartEntry};
 use crate::proof::finding::{ProofFinding, Spot};
 use crate::proof::layout::Laid;
 use crate::proof::lines::drawing_findings;
 use crate::proof::matching::{Drawn, Found, Matching, Shape, places};
-use crate::proof::read::Drawing;
 use crate::proof::shape::bounds;
 use crate::tolerance::{ARC_SAGITTA_MM, IN_PLACE_MM, SAME_SCALE};
 use std::collections::{BTreeMap, BTreeSet};

@@ -14,6 +14,7 @@ const ORDER: &[&str] = &[
     "geometry",
     "picture",
     "sparse",
+    "drawing",
     "lettering",
     "joint",
     "structure",

@@ -1,7 +1,7 @@
 //! Ellipses and splines, drawn as cubic Bézier curves.
 
+use crate::drawing::Pen;
 use crate::geometry::{Point2, Segment, Vector2, trig};
-use crate::proof::read::Pen;
 use crate::tolerance::NO_LENGTH_MM;
 use std::f64::consts::TAU;
 

@@ -4,16 +4,17 @@
 //! and 20 are a point, 42 a bulge, 70 flags, 230 the z of the extrusion direction (-1
 //! mirrors the entity in x).
 
+use crate::drawing::curves::{Ellipse, spline};
+use crate::drawing::{Curve, Drawing, DrawingError, Pen, chain, is_cut};
+use crate::drawing::{KnownLayer, layer_named};
 use crate::geometry::{Point2, Vertex, trig};
-use crate::proof::read::curves::{Ellipse, spline};
-use crate::proof::read::{Curve, Drawing, DrawingError, Pen, chain, is_cut, layer_named};
 use crate::units::Unit;
 
 /// Reads the lines of a DXF file, in millimetres.
 ///
 /// # Errors
 /// [`DrawingError`] if the bytes are no ASCII DXF.
-pub(in crate::proof) fn read_dxf(bytes: &[u8]) -> Result<Drawing, DrawingError> {
+pub fn read_dxf(bytes: &[u8], known: &[KnownLayer]) -> Result<Drawing, DrawingError> {
     if bytes.starts_with(b"AutoCAD Binary DXF") {
         return Err(DrawingError::BinaryDxf);
     }
@@ -30,7 +31,7 @@ pub(in crate::proof) fn read_dxf(bytes: &[u8]) -> Result<Drawing, DrawingError> 
         {
             vertices.push(vertex);
         }
-        drawing.add(&entity, &vertices, scale);
+        drawing.add(&entity, &vertices, (scale, known));
     }
     Ok(chain::joined(drawing, is_cut))
 }
@@ -91,9 +92,9 @@ impl Entity<'_> {
         self.0[0].1
     }
 
-    fn layer(&self) -> &'static str {
+    fn layer(&self, known: &[KnownLayer]) -> &'static str {
         let name = self.0.iter().find(|tag| tag.0 == 8).map(|tag| tag.1);
-        name.and_then(layer_named).unwrap_or("")
+        name.and_then(|name| layer_named(known, name)).unwrap_or("")
     }
 
     /// The first value of a group code; 0 if it is missing or no number.
@@ -187,8 +188,13 @@ impl Entity<'_> {
 }
 
 impl Drawing {
-    fn add(&mut self, entity: &Entity, vertices: &[Entity], scale: f64) {
-        let layer = entity.layer();
+    fn add(
+        &mut self,
+        entity: &Entity,
+        vertices: &[Entity],
+        (scale, known): (f64, &[KnownLayer]),
+    ) {
+        let layer = entity.layer(known);
         if let Some((corners, closed)) = entity.curved(scale) {
             self.curves.extend(plain(layer, corners, closed));
             return;
@@ -252,6 +258,7 @@ fn plain(layer: &'static str, mut corners: Vec<Vertex>, closed: bool) -> Option<
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::drawing::LAYERS;
 
     fn file(header: &str, entities: &str) -> Vec<u8> {
         let spaced = format!(
@@ -266,7 +273,7 @@ mod tests {
                         0 LINE 8 CUT_OUTER 10 0 20 4 11 10 21 4 \
                         0 ARC 8 CUT_OUTER 10 10 20 2 40 2 50 270 51 90 \
                         0 LINE 8 CUT_OUTER 10 0 20 4 11 0 21 0";
-        let drawing = read_dxf(&file("9 $INSUNITS 70 4", entities)).unwrap();
+        let drawing = read_dxf(&file("9 $INSUNITS 70 4", entities), &LAYERS).unwrap();
         let [curve] = drawing.curves.as_slice() else { panic!("{drawing:?}") };
         assert!(curve.closed && curve.layer == "CUT_OUTER" && drawing.says_unit);
         let area = 40.0 + 2.0 * std::f64::consts::PI;
@@ -279,7 +286,7 @@ mod tests {
                         0 LINE 8 CUT_OUTER 10 10 20 0 11 0 21 0 \
                         0 LINE 8 CUT_OUTER 10 10 20 0 11 0 21 9 \
                         0 LINE 8 CUT_OUTER 10 0 20 9 11 0 21 0";
-        let drawing = read_dxf(&file("", entities)).unwrap();
+        let drawing = read_dxf(&file("", entities), &LAYERS).unwrap();
         assert_eq!((drawing.curves.len(), drawing.doubled.len()), (1, 1));
         assert!(drawing.curves[0].closed && !drawing.says_unit);
     }
@@ -288,7 +295,7 @@ mod tests {
     fn inches_become_millimetres_and_a_turned_over_polyline_is_mirrored() {
         let entities = "0 LWPOLYLINE 8 CUT_OUTER 90 3 70 1 \
                         10 1 20 0 42 0.5 10 2 20 0 10 2 20 1 230 -1";
-        let drawing = read_dxf(&file("9 $INSUNITS 70 1", entities)).unwrap();
+        let drawing = read_dxf(&file("9 $INSUNITS 70 1", entities), &LAYERS).unwrap();
         let first = drawing.curves[0].vertices[0];
         assert!(
             (first.point.x + 25.4).abs() < 1e-12 && (first.bulge + 0.5).abs() < 1e-12
@@ -301,7 +308,7 @@ mod tests {
         let entities = "0 ELLIPSE 8 CUT_OUTER 10 5 20 0 11 3 21 0 40 0.5 41 0 42 3.141592653589793 \
                         0 SPLINE 8 CUT_OUTER 70 8 71 3 40 0 40 0 40 0 40 0 40 1 40 1 40 1 40 1 \
                         10 2 20 0 10 4 20 0 10 6 20 0 10 8 20 0";
-        let drawing = read_dxf(&file("9 $INSUNITS 70 1", entities)).unwrap();
+        let drawing = read_dxf(&file("9 $INSUNITS 70 1", entities), &LAYERS).unwrap();
         let [curve] = drawing.curves.as_slice() else { panic!("{drawing:?}") };
         assert!(curve.closed && drawing.unread.is_empty());
         let area = std::f64::consts::PI * 3.0 * 1.5 / 2.0 * 25.4 * 25.4;
@@ -310,9 +317,12 @@ mod tests {
 
     #[test]
     fn what_is_no_dxf_is_an_error_with_its_line() {
-        let error = read_dxf(b"0\nSECTION\nhello\nworld\n").unwrap_err();
+        let error = read_dxf(b"0\nSECTION\nhello\nworld\n", &LAYERS).unwrap_err();
         assert!(matches!(error, DrawingError::Dxf { line: 3, .. }), "{error}");
-        assert_eq!(read_dxf(b"AutoCAD Binary DXF\r\n"), Err(DrawingError::BinaryDxf));
-        assert!(read_dxf(b"").is_err());
+        assert_eq!(
+            read_dxf(b"AutoCAD Binary DXF\r\n", &LAYERS),
+            Err(DrawingError::BinaryDxf)
+        );
+        assert!(read_dxf(b"", &LAYERS).is_err());
     }
 }

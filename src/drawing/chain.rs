@@ -1,15 +1,12 @@
 //! Single lines and arcs joined into closed contours where their ends meet.
 
+use crate::drawing::{Curve, Drawing};
 use crate::geometry::{Point2, Vertex};
-use crate::proof::read::{Curve, Drawing};
 use crate::tolerance::{JOINED_MM, NO_LENGTH_MM};
 use std::collections::BTreeMap;
 
 /// Joins the open curves of some layers; others stay as they were drawn.
-pub(in crate::proof) fn joined(
-    mut drawing: Drawing,
-    which: impl Fn(&str) -> bool,
-) -> Drawing {
+pub fn joined(mut drawing: Drawing, which: impl Fn(&str) -> bool) -> Drawing {
     let is_finite = |v: &Vertex| (v.point.coords.sum() + v.bulge).is_finite();
     let all = drawing.curves.len();
     drawing.curves.retain(|curve| curve.vertices.iter().all(is_finite));

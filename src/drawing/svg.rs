@@ -3,10 +3,10 @@
 //! Lengths by SVG 1.1 §7: `width` and `height` carry the unit, `viewBox` says how many
 //! user units they are; without a unit a user unit is 1/96 inch.
 
+use crate::drawing::curves::{Ellipse, arc_to, raised};
+use crate::drawing::{Curve, Drawing, DrawingError, Pen, chain, is_cut};
+use crate::drawing::{KnownLayer, layer_coloured, layer_named};
 use crate::geometry::{Point2, Vector2, Vertex};
-use crate::proof::read::curves::{Ellipse, arc_to, raised};
-use crate::proof::read::{Curve, Drawing, DrawingError, Pen, chain, is_cut};
-use crate::proof::read::{layer_coloured, layer_named};
 use crate::tolerance::NO_LENGTH_MM;
 use nalgebra::Matrix3;
 use roxmltree::{Document, Node};
@@ -16,7 +16,7 @@ use svgtypes::{Length, LengthUnit, PathParser, PathSegment, Transform, ViewBox};
 ///
 /// # Errors
 /// [`DrawingError`] if the bytes are no SVG.
-pub(in crate::proof) fn read_svg(bytes: &[u8]) -> Result<Drawing, DrawingError> {
+pub fn read_svg(bytes: &[u8], known: &[KnownLayer]) -> Result<Drawing, DrawingError> {
     let text = String::from_utf8_lossy(bytes);
     let other = |message: String| DrawingError::Other { message };
     let document = Document::parse(&text).map_err(|error| other(error.to_string()))?;
@@ -27,7 +27,7 @@ pub(in crate::proof) fn read_svg(bytes: &[u8]) -> Result<Drawing, DrawingError> 
     let (page, says_unit) = page(root);
     let mut drawing = Drawing { says_unit, ..Drawing::default() };
     for child in root.children() {
-        drawing.walk(child, page, "", 0);
+        drawing.walk(child, known, (page, ""), 0);
     }
     Ok(chain::joined(drawing, is_cut))
 }
@@ -69,8 +69,8 @@ impl Drawing {
     fn walk(
         &mut self,
         node: Node,
-        outer: Matrix3<f64>,
-        layer: &'static str,
+        known: &[KnownLayer],
+        (outer, layer): (Matrix3<f64>, &'static str),
         depth: usize,
     ) {
         if !node.is_element() || depth > DEEPEST {
@@ -78,13 +78,13 @@ impl Drawing {
         }
         let own = node.attribute("transform").and_then(|text| text.parse().ok());
         let matrix = own.map_or(outer, |own| outer * matrix(own));
-        let layer = layer_of(node).unwrap_or(layer);
+        let layer = layer_of(node, known).unwrap_or(layer);
         let mut pen = Pen::default();
         let mut exact = true;
         match node.tag_name().name() {
             "g" | "svg" | "a" => {
                 for child in node.children() {
-                    self.walk(child, matrix, layer, depth + 1);
+                    self.walk(child, known, (matrix, layer), depth + 1);
                 }
             }
             "path" => exact = path(node.attribute("d").unwrap_or(""), &mut pen),
@@ -113,14 +113,15 @@ fn matrix(t: Transform) -> Matrix3<f64> {
 }
 
 /// The layer that an element itself names: by id, by Inkscape's label, or by its colour.
-fn layer_of(node: Node) -> Option<&'static str> {
+fn layer_of(node: Node, known: &[KnownLayer]) -> Option<&'static str> {
     let names = node.attributes().filter(|a| ["id", "label"].contains(&a.name()));
-    let named = names.filter_map(|attribute| layer_named(attribute.value())).next();
+    let named =
+        names.filter_map(|attribute| layer_named(known, attribute.value())).next();
     let style = node.attribute("style").unwrap_or("");
     let styled = style.split(';').find_map(|rule| rule.trim().strip_prefix("stroke:"));
     let colour = styled.or(node.attribute("stroke")).and_then(|text| {
         let colour: svgtypes::Color = text.trim().parse().ok()?;
-        layer_coloured([colour.red, colour.green, colour.blue])
+        layer_coloured(known, [colour.red, colour.green, colour.blue])
     });
     named.or(colour)
 }
@@ -264,6 +265,7 @@ fn path(data: &str, pen: &mut Pen) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::drawing::LAYERS;
 
     #[test]
     fn what_inkscape_makes_of_a_circle_is_read_in_its_place() {
@@ -271,7 +273,7 @@ mod tests {
             viewBox="0 0 20 10"><g transform="translate(1,2)" style="stroke:#ff0000">
             <path d="m 5,3 a 2,2 0 0 1 -4,0 2,2 0 0 1 4,0 z"/></g>
             <text>SPAM</text></svg>"##;
-        let drawing = read_svg(text.as_bytes()).unwrap();
+        let drawing = read_svg(text.as_bytes(), &LAYERS).unwrap();
         let [curve] = drawing.curves.as_slice() else { panic!("{drawing:?}") };
         assert!(curve.closed && curve.layer == "CUT_OUTER" && drawing.says_unit);
         let area = std::f64::consts::PI * 5.08 * 5.08;
@@ -287,7 +289,7 @@ mod tests {
                 r#"<svg xmlns="http://www.w3.org/2000/svg" width="200mm" height="200mm"
                 viewBox="0 0 200 200"><g transform="rotate(10)">{shape}</g></svg>"#
             );
-            let drawing = read_svg(text.as_bytes()).unwrap();
+            let drawing = read_svg(text.as_bytes(), &LAYERS).unwrap();
             let [curve] = drawing.curves.as_slice() else { panic!("{drawing:?}") };
             assert!(curve.closed && drawing.unread.is_empty(), "{drawing:?}");
             curve.contour().signed_area().abs()
@@ -311,11 +313,14 @@ mod tests {
 
     #[test]
     fn what_is_no_svg_is_an_error() {
-        assert!(read_svg(b"<html/>").is_err());
-        assert!(read_svg(b"\xff\xfe").is_err());
+        assert!(read_svg(b"<html/>", &LAYERS).is_err());
+        assert!(read_svg(b"\xff\xfe", &LAYERS).is_err());
         assert!(
-            read_svg(b"<svg width='0' viewBox='0 0 0 0'><path d='M0 0zz'/></svg>")
-                .is_ok()
+            read_svg(
+                b"<svg width='0' viewBox='0 0 0 0'><path d='M0 0zz'/></svg>",
+                &LAYERS
+            )
+            .is_ok()
         );
     }
 }

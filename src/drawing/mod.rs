@@ -1,4 +1,4 @@
-//! The written files back into curves on layers: DXF, SVG and PDF.
+//! DXF, SVG and PDF as curves on layers: read, never judged.
 //!
 //! Tolerant of what CAD programs make of a file when they save it: other kinds of
 //! polylines, single lines and arcs, other units, moved layers of the same name. What
@@ -8,19 +8,20 @@ mod bezier;
 mod chain;
 mod curves;
 mod dxf;
+mod parts;
 mod pdf;
 mod svg;
 
-use crate::export::LAYERS;
 use crate::geometry::{Contour, Point2, Vertex};
 use miette::Diagnostic;
 use std::collections::BTreeMap;
 use thiserror::Error;
 
-pub(super) use chain::joined;
-pub(super) use dxf::read_dxf;
-pub(super) use pdf::read_pdf;
-pub(super) use svg::read_svg;
+pub use chain::joined;
+pub use dxf::read_dxf;
+pub use parts::{Drawn, DrawnPart, Format, drawn_parts};
+pub use pdf::read_pdf;
+pub use svg::read_svg;
 
 /// Why a file is no drawing.
 #[derive(Debug, Clone, PartialEq, Eq, Error, Diagnostic)]
@@ -45,10 +46,19 @@ pub enum DrawingError {
     Other { message: String },
 }
 
+/// A layer that the reader of a drawing looks for, by name or by colour.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct KnownLayer {
+    /// Its name; case does not count.
+    pub name: &'static str,
+    /// The colour of its lines where layers have no names.
+    pub rgb: [u8; 3],
+}
+
 /// A line on a layer, mm, y up.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) struct Curve {
-    /// Name of the layer; empty if it has none of ours.
+pub struct Curve {
+    /// Name of the known layer; empty if it is on none.
     pub layer: &'static str,
     /// Its corners.
     pub vertices: Vec<Vertex>,
@@ -58,12 +68,12 @@ pub(super) struct Curve {
 
 impl Curve {
     /// The curve as a closed one.
-    pub(super) fn contour(&self) -> Contour {
+    pub fn contour(&self) -> Contour {
         Contour { vertices: self.vertices.clone() }
     }
 
     /// Length of the line, mm.
-    pub(super) fn length(&self) -> f64 {
+    pub fn length(&self) -> f64 {
         let steps = self.vertices.len() - usize::from(!self.closed);
         self.contour().segments().take(steps).map(|segment| segment.length()).sum()
     }
@@ -71,7 +81,7 @@ impl Curve {
 
 /// One sheet as it was drawn.
 #[derive(Debug, Clone, PartialEq, Default)]
-pub(super) struct Drawing {
+pub struct Drawing {
     /// All lines; those on cut layers are joined where their ends meet.
     pub curves: Vec<Curve>,
     /// Single lines that lay on another one; they are not among the curves.
@@ -82,18 +92,19 @@ pub(super) struct Drawing {
     pub says_unit: bool,
 }
 
-/// Our layer of this name, whatever its case.
-fn layer_named(name: &str) -> Option<&'static str> {
-    LAYERS.iter().map(|layer| layer.name).find(|known| known.eq_ignore_ascii_case(name))
+/// The known layer of this name, whatever its case.
+fn layer_named(known: &[KnownLayer], name: &str) -> Option<&'static str> {
+    let mut names = known.iter().map(|layer| layer.name);
+    names.find(|known| known.eq_ignore_ascii_case(name))
 }
 
-/// Our layer of this colour.
-fn layer_coloured(rgb: [u8; 3]) -> Option<&'static str> {
-    LAYERS.iter().find(|layer| layer.rgb == rgb).map(|layer| layer.name)
+/// The known layer of this colour.
+fn layer_coloured(known: &[KnownLayer], rgb: [u8; 3]) -> Option<&'static str> {
+    known.iter().find(|layer| layer.rgb == rgb).map(|layer| layer.name)
 }
 
 /// Whether lines on the layer are cut.
-pub(super) fn is_cut(layer: &str) -> bool {
+pub fn is_cut(layer: &str) -> bool {
     layer.starts_with("CUT_")
 }
 
@@ -159,3 +170,12 @@ impl Pen {
         }
     }
 }
+
+/// Layers for the tests of the readers.
+#[cfg(test)]
+const LAYERS: [KnownLayer; 4] = [
+    KnownLayer { name: "ENGRAVE", rgb: [0, 255, 255] },
+    KnownLayer { name: "CUT_INNER", rgb: [0, 0, 255] },
+    KnownLayer { name: "CUT_OUTER", rgb: [255, 0, 0] },
+    KnownLayer { name: "SHEET", rgb: [128, 128, 128] },
+];

@@ -3,9 +3,9 @@
 //! `lopdf` reads objects and streams; of the content only paths, their colour and the
 //! matrix are followed.
 
+use crate::drawing::{Curve, Drawing, DrawingError, Pen, chain, is_cut};
+use crate::drawing::{KnownLayer, layer_coloured, layer_named};
 use crate::geometry::{Point2, Vertex};
-use crate::proof::read::{Curve, Drawing, DrawingError, Pen, chain, is_cut};
-use crate::proof::read::{layer_coloured, layer_named};
 use lopdf::content::{Content, Operation};
 use lopdf::{Document, Object, ObjectId};
 use nalgebra::Matrix3;
@@ -16,21 +16,29 @@ const MM_PER_POINT: f64 = 25.4 / 72.0;
 ///
 /// # Errors
 /// [`DrawingError`] if the bytes are no PDF.
-pub(in crate::proof) fn read_pdf(bytes: &[u8]) -> Result<Vec<Drawing>, DrawingError> {
+pub fn read_pdf(
+    bytes: &[u8],
+    known: &[KnownLayer],
+) -> Result<Vec<Drawing>, DrawingError> {
     let other = |error: lopdf::Error| DrawingError::Other { message: error.to_string() };
     let document = Document::load_mem(bytes).map_err(other)?;
     let pages = document.get_pages();
-    pages.values().map(|&page| drawing(&document, page).map_err(other)).collect()
+    pages.values().map(|&page| drawing(&document, page, known).map_err(other)).collect()
 }
 
-fn drawing(document: &Document, page: ObjectId) -> Result<Drawing, lopdf::Error> {
+fn drawing(
+    document: &Document,
+    page: ObjectId,
+    known: &[KnownLayer],
+) -> Result<Drawing, lopdf::Error> {
     let content = Content::decode(&document.get_page_content(page))?;
     let origin = media_box(document, page).unwrap_or_default();
     let scale = Matrix3::new_scaling(MM_PER_POINT);
     let shift = nalgebra::Vector2::new(-origin[0], -origin[1]);
     let matrix = scale * Matrix3::new_translation(&shift);
     let mut reader = Reader {
-        layers: layers(document, page),
+        known,
+        layers: layers(document, page, known),
         drawing: Drawing { says_unit: true, ..Drawing::default() },
         state: State { matrix, colour: "" },
         saved: Vec::new(),
@@ -52,7 +60,11 @@ fn media_box(document: &Document, page: ObjectId) -> Option<[f64; 2]> {
 }
 
 /// The names by which the page calls our layers.
-fn layers(document: &Document, page: ObjectId) -> Vec<(Vec<u8>, &'static str)> {
+fn layers(
+    document: &Document,
+    page: ObjectId,
+    known: &[KnownLayer],
+) -> Vec<(Vec<u8>, &'static str)> {
     let properties = || {
         let page = document.get_dictionary(page).ok()?;
         let resources = page.get_deref(b"Resources", document).ok()?.as_dict().ok()?;
@@ -62,7 +74,7 @@ fn layers(document: &Document, page: ObjectId) -> Vec<(Vec<u8>, &'static str)> {
     let layer = |(key, value): (&Vec<u8>, &Object)| {
         let group = document.dereference(value).ok()?.1.as_dict().ok()?;
         let name = group.get(b"Name").ok()?.as_str().ok()?;
-        Some((key.clone(), layer_named(&String::from_utf8_lossy(name))?))
+        Some((key.clone(), layer_named(known, &String::from_utf8_lossy(name))?))
     };
     named.filter_map(layer).collect()
 }
@@ -74,7 +86,8 @@ struct State {
     colour: &'static str,
 }
 
-struct Reader {
+struct Reader<'a> {
+    known: &'a [KnownLayer],
     layers: Vec<(Vec<u8>, &'static str)>,
     drawing: Drawing,
     state: State,
@@ -84,7 +97,7 @@ struct Reader {
     pen: Pen,
 }
 
-impl Reader {
+impl Reader<'_> {
     fn follow(&mut self, operation: &Operation) {
         let number = |k: usize| {
             let operand = operation.operands.get(k).and_then(|o| o.as_float().ok());
@@ -102,7 +115,7 @@ impl Reader {
             }
             "RG" => {
                 let rgb = [0, 1, 2].map(|k| (number(k) * 255.0).round() as u8);
-                self.state.colour = layer_coloured(rgb).unwrap_or("");
+                self.state.colour = layer_coloured(self.known, rgb).unwrap_or("");
             }
             "BDC" | "BMC" => self.marked.push(self.layer(operation)),
             "EMC" => {

@@ -3,10 +3,11 @@
 //! Which closed line is an outline and which a hole follows from what lies in what, never
 //! from layers alone: other programs name and colour theirs as they like.
 
+use crate::drawing::{
+    Curve, DrawingError, KnownLayer, is_cut, joined, read_dxf, read_svg,
+};
 use crate::geometry::predicates::contains;
-use crate::geometry::{Contour, Point2, Vertex};
-use crate::proof::read::{Curve, DrawingError, is_cut, joined, read_dxf, read_svg};
-use crate::sheets::{Operation, Path};
+use crate::geometry::{Contour, Point2};
 use crate::tolerance::ARC_SAGITTA_MM;
 
 /// The formats that are read.
@@ -26,7 +27,7 @@ pub struct DrawnPart {
     /// Clockwise.
     pub holes: Vec<Contour>,
     /// What is engraved or scored on it, and open cuts.
-    pub marks: Vec<(Operation, Path)>,
+    pub marks: Vec<Curve>,
 }
 
 /// What is on a drawing.
@@ -72,10 +73,14 @@ impl Ring {
 ///
 /// # Errors
 /// [`DrawingError`] if the bytes are no drawing of this format.
-pub fn drawn_parts(bytes: &[u8], format: Format) -> Result<Drawn, DrawingError> {
+pub fn drawn_parts(
+    bytes: &[u8],
+    format: Format,
+    known: &[KnownLayer],
+) -> Result<Drawn, DrawingError> {
     let drawing = match format {
-        Format::Dxf => read_dxf(bytes)?,
-        Format::Svg => read_svg(bytes)?,
+        Format::Dxf => read_dxf(bytes, known)?,
+        Format::Svg => read_svg(bytes, known)?,
     };
     // Lines on layers of other programs may be cut lines as well.
     let drawing = joined(drawing, str::is_empty);
@@ -113,7 +118,7 @@ pub fn drawn_parts(bytes: &[u8], format: Format) -> Result<Drawn, DrawingError> 
         let at = curve.vertices[0].point;
         // On material, the innermost line around is an outline.
         match around(at, 0.0).first().and_then(|&inner| part_of[inner]) {
-            Some(part) => parts[part].marks.push(mark(curve)),
+            Some(part) => parts[part].marks.push(curve.clone()),
             None => stray.push(at),
         }
     }
@@ -121,27 +126,10 @@ pub fn drawn_parts(bytes: &[u8], format: Format) -> Result<Drawn, DrawingError> 
     Ok(Drawn { parts, stray, unread: unread.collect(), says_unit: drawing.says_unit })
 }
 
-/// Open cuts are cut before the outline; what is on no layer of ours is engraved, which can
-/// do no harm.
-fn mark(curve: &Curve) -> (Operation, Path) {
-    let operation = match curve.layer {
-        "SCORE" => Operation::Score,
-        layer if is_cut(layer) => Operation::CutInner,
-        _ => Operation::Engrave,
-    };
-    if curve.closed {
-        return (operation, Path::Closed(curve.contour()));
-    }
-    let mut vertices = curve.vertices.clone();
-    if let Some(last) = vertices.last_mut() {
-        *last = Vertex::line(last.point);
-    }
-    (operation, Path::Open(Contour { vertices }.flattened(ARC_SAGITTA_MM)))
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::drawing::LAYERS;
 
     #[test]
     fn what_lies_in_what_makes_parts_holes_and_marks() {
@@ -153,13 +141,13 @@ mod tests {
             <path d="M 12 50 L 18 50" fill="none" stroke="#00ffff"/>
             <path d="M 1 1 L 9 1" fill="none" stroke="#00ffff"/>
             </svg>"##;
-        let drawn = drawn_parts(svg.as_bytes(), Format::Svg).unwrap();
+        let drawn = drawn_parts(svg.as_bytes(), Format::Svg, &LAYERS).unwrap();
         let [ring, square] = drawn.parts.as_slice() else { panic!("{drawn:?}") };
         assert_eq!((ring.holes.len(), square.holes.len()), (1, 0));
         assert!(ring.outline.signed_area() > 0.0 && ring.holes[0].signed_area() < 0.0);
         assert!(ring.outline.vertices.iter().all(|v| v.bulge > 0.0), "arcs stay arcs");
         assert_eq!((ring.marks.len(), square.marks.len()), (1, 1));
-        assert_eq!(square.marks[0].0, Operation::Engrave);
+        assert_eq!(square.marks[0].layer, "ENGRAVE");
         assert_eq!((drawn.stray.len(), drawn.says_unit), (1, true));
     }
 
@@ -173,7 +161,7 @@ mod tests {
             (0..4).map(|k| line(corners[k], corners[(k + 1) % 4])).collect();
         let text = format!("0 SECTION 2 ENTITIES {sides}0 SPLINE 8 0 0 ENDSEC 0 EOF");
         let text = text.split_whitespace().collect::<Vec<_>>().join("\n");
-        let drawn = drawn_parts(text.as_bytes(), Format::Dxf).unwrap();
+        let drawn = drawn_parts(text.as_bytes(), Format::Dxf, &LAYERS).unwrap();
         assert_eq!(drawn.parts.len(), 1);
         assert!((drawn.parts[0].outline.signed_area() - 600.0).abs() < 1e-9);
         assert_eq!((drawn.unread, drawn.says_unit), (vec![("SPLINE".into(), 1)], false));
