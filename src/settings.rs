@@ -1,7 +1,7 @@
 //! What a job is made with: the inner form of a template, made once and passed to all stages.
 
 use crate::joint::Joint;
-use crate::nest::{Effort, Stock, Turns};
+use crate::nest::{Effort, Stock, Rotations};
 use crate::parts::{Fit, FoldMarks, Marking};
 use crate::rigidity::Fingerprint;
 use crate::sheets::{Frame, Kerf};
@@ -33,7 +33,7 @@ pub struct Settings {
     /// Sheets to choose from.
     pub stock: Vec<Stock>,
     /// How parts may be turned: grain must run along them.
-    pub turns: Turns,
+    pub rotations: Rotations,
 }
 
 impl Settings {
@@ -49,7 +49,7 @@ impl Settings {
             marking: marking(&template),
             kerf: Kerf::from_width_mm(template.material.kerf_mm),
             stock: stock(&template),
-            turns: turns(&template),
+            rotations: rotations(&template),
             template,
         }
     }
@@ -93,11 +93,11 @@ fn ascending(mut nodes: Vec<usize>) -> Vec<usize> {
     nodes
 }
 
-fn turns(template: &Template) -> Turns {
+fn rotations(template: &Template) -> Rotations {
     if template.material.grain {
-        Turns::Only(vec![0.0, std::f64::consts::PI])
+        Rotations::Only(vec![0.0, std::f64::consts::PI])
     } else {
-        Turns::Free
+        Rotations::Free
     }
 }
 

@@ -14,7 +14,7 @@ use crate::drawing::{Format, drawn_parts};
 use crate::export::{self, PngLook, known_layers};
 use crate::gate::approve_loose;
 use crate::json;
-use crate::nest::{self, Effort, Found, NestError, Shape, Stock};
+use crate::nest::{self, Effort, NestError, Shape, Solution, Stock};
 use crate::report::{Nested, free_maps, layout_json, layout_sheets};
 use crate::settings::Settings;
 use crate::watch::Watch;
@@ -127,7 +127,7 @@ fn nested(
     };
     Ok(match order.task {
         Task::Sheets => {
-            let Found { layout, unplaced, trials } =
+            let Solution { layout, unplaced, trials } =
                 nest::search(shapes, &order.stock, effort, watch)?;
             Nested { layout, unplaced, trials, length: None, seed: effort.seed }
         }

@@ -4,7 +4,7 @@ use crate::cli::nest_input::{NestInputError, Order, Task};
 use crate::diagnostic::{Finding, Located, Place};
 use crate::drawing::{self, Curve, Drawn};
 use crate::geometry::{Contour, Point2, Vertex};
-use crate::nest::{self, Layout, Shape, Turns};
+use crate::nest::{self, Layout, Rotations, Shape};
 use crate::report::Lines;
 use crate::sheets::{Operation, Path};
 use crate::tolerance::ARC_SAGITTA_MM;
@@ -68,14 +68,15 @@ pub(super) fn order(
         let name = format!("P{}", k + 1);
         let holes = part.holes.iter();
         // What stays tangled is refused by its name later on.
-        let plain =
-            |ring: Vec<Point2>, is_hole| nest::untangled(&ring, is_hole).unwrap_or(ring);
+        let plain = |ring: Vec<Point2>, is_hole| {
+            nest::without_loops(&ring, is_hole).unwrap_or(ring)
+        };
         let hole = |hole: &Contour| plain(hole.flattened(ARC_SAGITTA_MM), true);
         shapes.push(Shape {
             name: name.clone(),
             outline: plain(part.outline.enclosing_polygon(ARC_SAGITTA_MM), false),
             holes: holes.clone().map(hole).collect(),
-            turns: Turns::Free,
+            rotations: Rotations::Free,
             priority: 0,
         });
         let holes = holes.map(|hole| (Operation::CutInner, Path::Closed(hole.clone())));

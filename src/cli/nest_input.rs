@@ -2,7 +2,7 @@
 
 use crate::geometry::Point2;
 use crate::nest::{
-    self, Layout, NestError, NestedSheet, Placement, Remnant, Shape, Stock, Turns,
+    self, Layout, NestError, NestedSheet, Placement, Remnant, Rotations, Shape, Stock,
 };
 use crate::report::Lines;
 use miette::Diagnostic;
@@ -98,7 +98,7 @@ struct Part {
     #[serde(default)]
     holes: Vec<Ring>,
     #[serde(default)]
-    rotations: Rotations,
+    rotations: RotationsText,
     #[serde(default)]
     priority: i32,
 }
@@ -109,7 +109,7 @@ const fn one() -> usize {
 
 #[derive(Deserialize, Default)]
 #[serde(untagged)]
-enum Rotations {
+enum RotationsText {
     #[default]
     Free,
     Word(String),
@@ -301,7 +301,8 @@ impl Order {
     /// # Errors
     /// If one of them is locked.
     pub(super) fn refuse(&mut self) -> Result<Vec<NestError>, NestError> {
-        let why: Vec<Option<NestError>> = self.shapes.iter().map(nest::refused).collect();
+        let why: Vec<Option<NestError>> =
+            self.shapes.iter().map(nest::outline_fault).collect();
         for locked in self.stock.iter_mut().flat_map(|stock| &mut stock.locked) {
             if let Some(error) = &why[locked.shape] {
                 return Err(error.clone());
@@ -316,13 +317,13 @@ impl Order {
 
 impl Part {
     fn shapes(&self) -> Vec<Shape> {
-        let turns = match &self.rotations {
-            Rotations::List(degrees) if !degrees.is_empty() => degrees_only(degrees),
-            Rotations::Word(word) if word == "locked" => degrees_only(&[0.0]),
-            _ => Turns::Free,
+        let rotations = match &self.rotations {
+            RotationsText::List(degrees) if !degrees.is_empty() => degrees_only(degrees),
+            RotationsText::Word(word) if word == "locked" => degrees_only(&[0.0]),
+            _ => Rotations::Free,
         };
         let rings = [&self.outline].into_iter().chain(&self.holes);
-        let mut shapes = copies(&self.id, self.quantity, rings.collect(), turns);
+        let mut shapes = copies(&self.id, self.quantity, rings.collect(), rotations);
         shapes.iter_mut().for_each(|shape| shape.priority = self.priority);
         shapes
     }
@@ -330,8 +331,8 @@ impl Part {
 
 impl Item {
     fn shapes(&self) -> Vec<Shape> {
-        let turns =
-            self.allowed_orientations.as_deref().map_or(Turns::Free, degrees_only);
+        let rotations =
+            self.allowed_orientations.as_deref().map_or(Rotations::Free, degrees_only);
         let rings = match &self.shape {
             ItemShape::SimplePolygon(ring) => vec![ring],
             ItemShape::Polygon { outer, inner } => {
@@ -339,19 +340,19 @@ impl Item {
             }
         };
         let id = self.id.as_str().map_or_else(|| self.id.to_string(), str::to_owned);
-        copies(&id, self.demand, rings, turns)
+        copies(&id, self.demand, rings, rotations)
     }
 }
 
-fn degrees_only(degrees: &[f64]) -> Turns {
-    Turns::Only(degrees.iter().map(|degrees| degrees.to_radians()).collect())
+fn degrees_only(degrees: &[f64]) -> Rotations {
+    Rotations::Only(degrees.iter().map(|degrees| degrees.to_radians()).collect())
 }
 
-fn copies(id: &str, count: usize, rings: Vec<&Ring>, turns: Turns) -> Vec<Shape> {
+fn copies(id: &str, count: usize, rings: Vec<&Ring>, rotations: Rotations) -> Vec<Shape> {
     let mut rings = rings.into_iter().enumerate().map(|(k, ring)| points(ring, k == 0));
     let outline = rings.next().unwrap_or_default();
     let (name, holes, priority) = (id.to_owned(), rings.collect(), 0);
-    let shape = Shape { name, outline, holes, turns, priority };
+    let shape = Shape { name, outline, holes, rotations, priority };
     vec![shape; count]
 }
 

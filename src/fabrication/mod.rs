@@ -144,7 +144,7 @@ impl Fabrication {
             let drawn =
                 settings.kerf.compensated(&Contour::polygon(outline.iter().copied()));
             let drawn = drawn.flattened(ARC_SAGITTA_MM);
-            let fits = |sheet| nest::fits(&drawn, &settings.turns, sheet).is_some();
+            let fits = |sheet| nest::fits(&drawn, &settings.rotations, sheet).is_some();
             settings.stock.iter().any(fits)
         };
         let (fit, marking) = (&settings.fit, settings.marking);
@@ -264,6 +264,6 @@ fn shape(part: &Part, settings: &Settings) -> Shape {
     let holes = part.region.holes.iter();
     let hole = |hole| kerf.compensated(hole).flattened(ARC_SAGITTA_MM);
     let holes = holes.map(hole).collect();
-    let turns = settings.turns.clone();
-    Shape { name: part.id.clone(), outline, holes, turns, priority: 0 }
+    let rotations = settings.rotations.clone();
+    Shape { name: part.id.clone(), outline, holes, rotations, priority: 0 }
 }

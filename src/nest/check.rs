@@ -9,7 +9,7 @@
 //! to it.)
 
 use crate::geometry::predicates::{contains, segments_meet};
-use crate::geometry::{Point2, Vector2, trig};
+use crate::geometry::{Point2, Rect};
 use crate::nest::{Layout, NestedSheet, Placement, Shape, Stock};
 use crate::tolerance::PLACED_MM;
 use spade::{
@@ -86,10 +86,8 @@ fn rings(nested: &NestedSheet, shapes: &[Shape]) -> Vec<Ring> {
 
 /// An outline where it lies.
 pub(super) fn placed(outline: &[Point2], placement: &Placement) -> Vec<Point2> {
-    let (sin, cos) = (trig::sin(placement.angle), trig::cos(placement.angle));
-    let turn = |p: &Point2| Vector2::new(cos * p.x - sin * p.y, sin * p.x + cos * p.y);
-    let shift = Vector2::new(placement.x, placement.y);
-    outline.iter().map(|p| Point2::from(turn(p) + shift)).collect()
+    let motion = placement.motion();
+    outline.iter().map(|&p| motion.apply(p)).collect()
 }
 
 /// One closed line of a part, or of the remnant they lie on.
@@ -167,16 +165,18 @@ impl Checked<'_> {
     fn nested_in_another(&self) -> Vec<Fault> {
         let count = self.nested.placements.len();
         let mut insides: Vec<Vec<usize>> = vec![Vec::new(); count + 1];
-        let bounds: Vec<(Point2, Point2)> =
-            self.rings.iter().map(|ring| bounds(&ring.points)).collect();
+        let bounds: Vec<Rect> =
+            self.rings.iter().map(|ring| Rect::around(&ring.points)).collect();
         let mut faults = Vec::new();
         let is_edge = |ring: &&Ring| self.is_remnant(ring.owner) == ring.is_hole;
         for inner in self.rings.iter().filter(is_edge) {
             let p = inner.points[0];
             insides.iter_mut().for_each(Vec::clear);
-            for (ring, (low, high)) in self.rings.iter().zip(&bounds) {
-                let near = low.x <= p.x && p.x <= high.x && low.y <= p.y && p.y <= high.y;
-                if near && ring.owner != inner.owner && contains(&ring.points, p) {
+            for (ring, bounds) in self.rings.iter().zip(&bounds) {
+                if bounds.contains(p)
+                    && ring.owner != inner.owner
+                    && contains(&ring.points, p)
+                {
                     insides[ring.owner].push(usize::from(ring.is_hole));
                 }
             }
@@ -295,9 +295,4 @@ impl Checked<'_> {
         let (first, second) = (self.name(first), self.name(second));
         Fault::TooNear { sheet, first, second, distance }
     }
-}
-
-/// Corners of the box around a ring.
-pub(super) fn bounds(ring: &[Point2]) -> (Point2, Point2) {
-    ring.iter().fold((ring[0], ring[0]), |(low, high), p| (low.inf(p), high.sup(p)))
 }

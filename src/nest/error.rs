@@ -1,7 +1,7 @@
 //! Why parts could not be nested.
 
 use crate::diagnostic::{Located, Place};
-use crate::nest::{Shape, Stock, turn};
+use crate::nest::{Shape, Stock, rotation};
 use crate::watch::Stopped;
 use miette::Diagnostic;
 use thiserror::Error;
@@ -72,7 +72,7 @@ pub enum NestError {
 
 impl NestError {
     pub(super) fn too_large(shape: &Shape, stock: &[Stock]) -> Self {
-        let [length, height] = turn::least_rectangle(&shape.outline);
+        let [length, height] = rotation::least_rectangle(&shape.outline);
         let inner = |s: &Stock| [s.width - 2.0 * s.margin, s.height - 2.0 * s.margin];
         let largest = stock.iter().map(inner).max_by(|a, b| {
             let area = |s: &[f64; 2]| s[0] * s[1];

@@ -1,11 +1,12 @@
-//! More parts than one crowd can hold: sheets are searched a few at a time.
+//! More parts than one state can hold: sheets are searched a few at a time.
 //!
-//! The emptiest sheets come first and together. In each group one sheet is pressed into the
+//! The emptiest sheets come first and together. In each group one sheet is compacted into the
 //! others; in the next pass those that are emptiest now meet, until no pass gains anything.
 
+use crate::geometry::ring;
+use crate::nest::budget::Budget;
 use crate::nest::search::{self, MOST_PARTS};
-use crate::nest::separate::Budget;
-use crate::nest::{Layout, NestedSheet, Shape, Stock, check, pieces};
+use crate::nest::{Layout, NestedSheet, Shape, Stock, check};
 
 /// Parts and sheets searched together, at most; one sheet may hold more parts.
 const GROUP_PARTS: usize = 400;
@@ -103,5 +104,5 @@ fn worth(layout: &Layout, shapes: &[Shape], stock: &[Stock]) -> [f64; 2] {
 
 /// Area of the parts on a sheet, mm².
 fn area(sheet: &NestedSheet, shapes: &[Shape]) -> f64 {
-    sheet.placements.iter().map(|p| pieces::area(&shapes[p.shape].outline)).sum()
+    sheet.placements.iter().map(|p| ring::area(&shapes[p.shape].outline)).sum()
 }

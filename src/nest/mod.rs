@@ -1,47 +1,45 @@
 //! Parts on sheets of stock.
 //!
 //! The caller gives shapes and stock and gets a [`Layout`] that has passed the exact
-//! [`check`]; how it is found is this module's own business. First a *drop* nester gives a
-//! sound layout (`start`). Then parts are let overlap and separated again on fewer or
-//! smaller sheets (`search`), and the emptiest sheet is pressed together so that a
+//! [`check`]; how it is found is this module's own business. First parts are laid bottom-left for a
+//! sound layout (`initial`). Then parts are let overlap and separated again on fewer or
+//! smaller sheets (`search`), and the emptiest sheet is compacted so that a
 //! rectangle of it is left over. Work is counted in evaluations, never in seconds.
 
+mod bin_exchange;
+mod bottom_left;
+mod budget;
 mod check;
-mod compress;
-mod crowd;
-mod drop;
+mod collision_shape;
+mod compaction;
+mod convex;
+mod convex_decomposition;
 mod error;
-mod exchange;
-mod free;
 mod groups;
-mod mesh;
-mod odd;
-mod pieces;
-mod prepared;
+mod initial;
+mod instance;
+mod interlock;
+mod leftover;
+mod outline;
 mod random;
-mod refuse;
+mod rotation;
 mod search;
-mod separate;
-mod slender;
-mod start;
+mod separation;
+mod state;
 mod stock;
-mod turn;
-mod turned;
-mod untangle;
-mod yard;
+mod triangulation;
 
 pub use check::{Fault, check};
 pub use error::NestError;
-pub use free::free;
-pub use refuse::refused;
-pub use stock::{Remnant, Stock, refused_stock};
-pub use turn::fits;
-pub use untangle::untangled;
+pub use leftover::leftovers;
+pub use outline::{outline_fault, without_loops};
+pub use rotation::fits;
+pub use stock::{Remnant, Stock, stock_fault};
 
-use crate::geometry::Point2;
+use crate::geometry::{Motion, Point2, Vector2};
 use crate::tolerance::{ROOM_MM, WRITTEN_MM};
 use crate::watch::Watch;
-use separate::Budget;
+use budget::Budget;
 
 /// A part as the nester sees it.
 #[derive(Debug, Clone, PartialEq)]
@@ -53,22 +51,22 @@ pub struct Shape {
     pub outline: Vec<Point2>,
     /// Holes in it, in which other parts may lie.
     pub holes: Vec<Vec<Point2>>,
-    /// Which turns are allowed.
-    pub turns: Turns,
+    /// By which angles it may be rotated.
+    pub rotations: Rotations,
     /// Parts of higher priority are placed first when there is not room for all.
     pub priority: i32,
 }
 
-/// How a part may be turned on the sheet.
+/// How a part may be rotated on the sheet.
 #[derive(Debug, Clone, PartialEq)]
-pub enum Turns {
+pub enum Rotations {
     /// By any angle.
     Free,
     /// Only by these angles, radians.
     Only(Vec<f64>),
 }
 
-/// Where a part lies: turned about its origin, then moved.
+/// Where a part lies: rotated about its origin, then moved.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Placement {
     /// Index into the shapes given.
@@ -79,6 +77,13 @@ pub struct Placement {
     pub x: f64,
     /// Then moved up, mm; a multiple of 1e-6.
     pub y: f64,
+}
+
+impl Placement {
+    /// From the part's coordinates to the sheet's.
+    pub fn motion(&self) -> Motion {
+        Motion::new(self.angle, Vector2::new(self.x, self.y))
+    }
 }
 
 /// One sheet of a layout.
@@ -111,7 +116,7 @@ pub struct Effort {
 
 /// What a search found.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Found {
+pub struct Solution {
     /// Sound: it has passed the check.
     pub layout: Layout,
     /// What could not be placed, and why.
@@ -160,28 +165,29 @@ pub fn search(
     stock: &[Stock],
     effort: &Effort,
     watch: &mut dyn Watch,
-) -> Result<Found, NestError> {
-    if let Some(error) = refused_stock(shapes, stock) {
+) -> Result<Solution, NestError> {
+    if let Some(error) = stock_fault(shapes, stock) {
         return Err(error);
     }
-    let start = start::start(shapes, stock, effort, watch)?;
+    let initial = initial::initial_layout(shapes, stock, effort, watch)?;
     if effort.trials <= 1 {
-        let unplaced = unplaced(&start, shapes, stock);
-        return Ok(Found { layout: start, unplaced, trials: 1 });
+        let unplaced = unplaced(&initial, shapes, stock);
+        return Ok(Solution { layout: initial, unplaced, trials: 1 });
     }
     let mut budget = budget(effort, watch);
-    budget.show(start.clone(), shapes, stock);
+    budget.show(initial.clone(), shapes, stock);
     let parts = (0..shapes.len()).filter(|&k| fits_any(&shapes[k], stock)).collect();
-    let denser = groups::denser(&start, parts, (shapes, stock), effort.seed, &mut budget);
+    let denser =
+        groups::denser(&initial, parts, (shapes, stock), effort.seed, &mut budget);
     let trials = trials(&budget);
     let sound = |layout: &Layout| check(layout, shapes, stock).is_empty();
-    let layout = denser.filter(sound).unwrap_or(start);
+    let layout = denser.filter(sound).unwrap_or(initial);
     let unplaced = unplaced(&layout, shapes, stock);
-    Ok(Found { layout, unplaced, trials })
+    Ok(Solution { layout, unplaced, trials })
 }
 
 fn fits_any(shape: &Shape, stock: &[Stock]) -> bool {
-    stock.iter().any(|sheet| fits(&shape.outline, &shape.turns, sheet).is_some())
+    stock.iter().any(|sheet| fits(&shape.outline, &shape.rotations, sheet).is_some())
 }
 
 /// Why each part that is on no sheet is on none.
@@ -213,7 +219,7 @@ pub fn strip(
 ) -> Result<Strip, NestError> {
     let endless = Stock { width: 1e9, ..sheet.clone() };
     for shape in shapes {
-        if fits(&shape.outline, &shape.turns, &endless).is_none() {
+        if fits(&shape.outline, &shape.rotations, &endless).is_none() {
             return Err(NestError::too_large(shape, &[endless]));
         }
     }

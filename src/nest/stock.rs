@@ -1,10 +1,9 @@
 //! What parts are laid on: sheets one can buy, remnants from the rack, and what already
 //! lies on them.
 
-use crate::geometry::Point2;
-use crate::nest::check::bounds;
-use crate::nest::pieces::area;
-use crate::nest::refuse::why;
+use crate::geometry::ring::area;
+use crate::geometry::{Point2, Rect};
+use crate::nest::outline::fault;
 use crate::nest::{Layout, NestError, NestedSheet, Placement, Shape, check};
 
 /// A size of sheet one can buy or has in the rack, or a remnant.
@@ -82,11 +81,11 @@ impl Stock {
 
 /// What keeps the stock from being used: a remnant with impossible edges, or locked parts
 /// that overlap or lie outside.
-pub fn refused_stock(shapes: &[Shape], stock: &[Stock]) -> Option<NestError> {
+pub fn stock_fault(shapes: &[Shape], stock: &[Stock]) -> Option<NestError> {
     let bad_remnant = |(k, stock): (usize, &Stock)| {
         let remnant = stock.remnant.as_ref()?;
-        let why = why(&remnant.outline, &remnant.holes).or_else(|| {
-            let (low, high) = bounds(&remnant.outline);
+        let why = fault(&remnant.outline, &remnant.holes).or_else(|| {
+            let Rect { min: low, max: high } = Rect::around(&remnant.outline);
             let fits = low.x >= 0.0 && low.y >= 0.0;
             let fits = fits && high.x <= stock.width && high.y <= stock.height;
             (!fits).then_some("it reaches beyond its width and height")

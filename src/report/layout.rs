@@ -1,7 +1,9 @@
 //! `layout.json`: where parts lie, how full the sheets are and what is left over.
 
 use crate::geometry::{Contour, Point2};
-use crate::nest::{self, Layout, NestError, NestedSheet, Remnant, Shape, Stock, Turns};
+use crate::nest::{
+    self, Layout, NestError, NestedSheet, Remnant, Rotations, Shape, Stock,
+};
 use crate::sheets::{Operation, Path, Sheet, Stroke, placed};
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
@@ -125,7 +127,7 @@ impl Writer<'_> {
             "cost": stock.cost,
             "utilisation": mm(self.used(nested) / stock.area()),
             "offcut": stock.remnant.is_none().then(|| self.offcut(nested)),
-            "free": nest::free(nested, self.shapes, stock)
+            "free": nest::leftovers(nested, self.shapes, stock)
                 .iter()
                 .map(|region| json!({
                     "area": mm(net_area(&region.outline, &region.holes)),
@@ -173,9 +175,9 @@ impl Writer<'_> {
                 "id": shape.name,
                 "quantity": quantity[shape.name.as_str()],
                 "priority": shape.priority,
-                "rotations": match &shape.turns {
-                    Turns::Free => json!("free"),
-                    Turns::Only(angles) => {
+                "rotations": match &shape.rotations {
+                    Rotations::Free => json!("free"),
+                    Rotations::Only(angles) => {
                         angles.iter().map(|&angle| degrees(angle)).collect::<Vec<_>>().into()
                     }
                 },
@@ -254,7 +256,7 @@ pub fn free_maps(
     let sheets = layout_sheets(shapes, stock, layout, lines).into_iter();
     let map = |(mut sheet, nested): (Sheet, &NestedSheet)| {
         sheet.strokes.iter_mut().for_each(|stroke| stroke.operation = Operation::Score);
-        let regions = nest::free(nested, shapes, &stock[nested.stock]);
+        let regions = nest::leftovers(nested, shapes, &stock[nested.stock]);
         for (part, Remnant { outline, holes }) in regions.iter().enumerate() {
             let edges = std::iter::once(outline).chain(holes);
             sheet.strokes.extend(edges.map(|ring| Stroke {

@@ -3,8 +3,8 @@
 
 use finwright::geometry::{Point2, trig};
 use finwright::nest::{
-    Effort, Fault, Layout, NestedSheet, Placement, Remnant, Shape, Stock, Turns, check,
-    refused, refused_stock, search, strip,
+    Effort, Fault, Layout, NestedSheet, Placement, Remnant, Rotations, Shape, Stock,
+    check, outline_fault, search, stock_fault, strip,
 };
 use finwright::watch::Watch;
 use std::collections::BTreeSet;
@@ -85,11 +85,11 @@ fn part(k: usize, dice: &mut Dice) -> Shape {
         8 => outline.iter_mut().for_each(|p| p.x += 9e5),
         _ => {}
     }
-    let turns = match dice.up_to(3) {
-        0 => Turns::Only(vec![0.0, TAU / 4.0]),
-        _ => Turns::Free,
+    let rotations = match dice.up_to(3) {
+        0 => Rotations::Only(vec![0.0, TAU / 4.0]),
+        _ => Rotations::Free,
     };
-    Shape { name: format!("P{k}"), outline, holes, turns, priority: 0 }
+    Shape { name: format!("P{k}"), outline, holes, rotations, priority: 0 }
 }
 
 #[test]
@@ -103,9 +103,9 @@ fn odd_parts_are_placed_or_refused_and_never_overlap() {
         let count = 1 + dice.up_to(30);
         let parts: Vec<Shape> = (0..count).map(|k| part(k, &mut dice)).collect();
         let (good, bad): (Vec<Shape>, Vec<Shape>) =
-            parts.into_iter().partition(|part| refused(part).is_none());
+            parts.into_iter().partition(|part| outline_fault(part).is_none());
         for part in &bad {
-            let why = refused(part).expect("it was refused").to_string();
+            let why = outline_fault(part).expect("it was refused").to_string();
             assert!(why.contains(&part.name), "{why}");
         }
         let effort = Effort { trials: 3, seed };
@@ -130,7 +130,7 @@ fn what_fits_no_sheet_is_named_and_the_rest_is_nested_densely() {
             .map(Point2::from)
             .to_vec(),
         holes: Vec::new(),
-        turns: Turns::Free,
+        rotations: Rotations::Free,
         priority: 0,
     };
     let stock = [Stock::new([200.0, 100.0], 2.0, 1.0)];
@@ -155,7 +155,7 @@ fn a_strip_of_rectangles_is_nearly_full() {
             .map(Point2::from)
             .to_vec(),
         holes: Vec::new(),
-        turns: Turns::Only(vec![0.0, TAU / 4.0]),
+        rotations: Rotations::Only(vec![0.0, TAU / 4.0]),
         priority: 0,
     };
     let parts: Vec<Shape> = (0..16).map(board).collect();
@@ -171,7 +171,7 @@ fn board(name: &str, [width, height]: [f64; 2]) -> Shape {
         name: name.into(),
         outline: corners.map(Point2::from).to_vec(),
         holes: Vec::new(),
-        turns: Turns::Free,
+        rotations: Rotations::Free,
         priority: 0,
     }
 }
@@ -246,7 +246,7 @@ fn remnants_locked_parts_and_prices_count() {
         locked: vec![Placement { x: 200.0, ..locked }],
         ..Stock::new([220.0, 160.0], 5.0, 2.0)
     };
-    let refusal = refused_stock(&parts, &[beside]).expect("it reaches over the edge");
+    let refusal = stock_fault(&parts, &[beside]).expect("it reaches over the edge");
     assert!(refusal.to_string().contains("B3 reaches into the margin"), "{refusal}");
 }
 
@@ -289,7 +289,8 @@ impl Watch for Units {
 fn a_search_cut_short_is_repeated_by_its_units() {
     let mut dice = Dice(7);
     let parts: Vec<Shape> = (0..30).map(|k| part(k, &mut dice)).collect();
-    let parts: Vec<Shape> = parts.into_iter().filter(|p| refused(p).is_none()).collect();
+    let parts: Vec<Shape> =
+        parts.into_iter().filter(|p| outline_fault(p).is_none()).collect();
     let stock = [Stock::new([200.0, 150.0], 3.0, 1.0)];
     let forever = Effort { trials: u32::MAX, seed: 3 };
     let cut =

@@ -1,11 +1,12 @@
-//! One room made narrower and narrower while everything still finds its place: strip
+//! One bin made narrower and narrower while everything still finds its place: strip
 //! packing, and the offcut of the last sheet.
 
-use crate::nest::crowd::{Crowd, Member, Pose};
-use crate::nest::separate::Budget;
-use crate::nest::turned::Turned;
+use crate::nest::budget::Budget;
+use crate::nest::collision_shape::Pose;
+use crate::nest::convex::ConvexPieces;
+use crate::nest::state::{Item, OverlapState};
 
-/// Share by which the room shrinks while exploring.
+/// Share by which the bin shrinks while exploring.
 const STEP: f64 = 0.001;
 /// Steps of the last squeeze: from, down to, and the factor on failure.
 const SQUEEZE: [f64; 3] = [0.0005, 0.00001, 0.6];
@@ -14,24 +15,24 @@ const ATTEMPTS: usize = 4;
 /// Candidates for each part of the first layout.
 const FILL_SAMPLES: usize = 200;
 
-impl Crowd<'_> {
+impl OverlapState<'_> {
     /// Lays the parts one after another, large ones first, where they reach least far to
     /// the right. Room 0 is made as wide as it needs.
     pub(super) fn fill(&mut self) {
-        let mut order: Vec<usize> = (0..self.members.len()).collect();
-        let size = |part: &usize| self.shapes[self.members[*part].shape].size;
+        let mut order: Vec<usize> = (0..self.items.len()).collect();
+        let size = |part: &usize| self.shapes[self.items[*part].shape].size;
         order.sort_by(|a, b| size(b).total_cmp(&size(a)).then(a.cmp(b)));
-        let mut scratch = Turned::default();
+        let mut scratch = ConvexPieces::default();
         for part in order {
             scratch.angle = f64::NAN;
-            self.rooms[0][2] = self.used(0) + self.reach_of(part, &mut scratch);
+            self.bins[0].max.x = self.used(0) + self.reach_of(part, &mut scratch);
             let pose = self.free_place(part, &mut scratch);
             let pose = pose.or_else(|| self.beyond(part, &mut scratch));
             if let Some(pose) = pose {
                 self.put(part, pose);
             }
         }
-        self.rooms[0][2] = self.used(0);
+        self.bins[0].max.x = self.used(0);
     }
 
     /// Where a part overlaps nothing and reaches least far to the right, of some random
@@ -39,12 +40,12 @@ impl Crowd<'_> {
     pub(super) fn free_place(
         &mut self,
         part: usize,
-        scratch: &mut Turned,
+        scratch: &mut ConvexPieces,
     ) -> Option<Pose> {
         let mut best: Option<(f64, Pose)> = None;
         for _ in 0..FILL_SAMPLES {
             let Some(pose) = self.anywhere(part, scratch) else { continue };
-            let far = |pose: &Pose| pose.x + scratch.bounds[2] + 0.05 * pose.y;
+            let far = |pose: &Pose| pose.x + scratch.bounds.max.x + 0.05 * pose.y;
             if best.is_some_and(|(least, _)| far(&pose) >= least) {
                 continue;
             }
@@ -57,35 +58,35 @@ impl Crowd<'_> {
     }
 
     /// A length within which the part surely finds room.
-    fn reach_of(&self, part: usize, scratch: &mut Turned) -> f64 {
-        self.turn(part, 0.0, scratch);
-        let b = scratch.bounds;
-        2.0 * ((b[2] - b[0]) + (b[3] - b[1])) + 100.0 * crate::tolerance::NEST_SLACK_MM
+    fn reach_of(&self, part: usize, scratch: &mut ConvexPieces) -> f64 {
+        self.rotate(part, 0.0, scratch);
+        let size = scratch.bounds.size();
+        2.0 * (size.x + size.y) + 100.0 * crate::tolerance::NEST_SLACK_MM
     }
 
     /// To the right of everything, in a turn that fits the height.
-    fn beyond(&mut self, part: usize, scratch: &mut Turned) -> Option<Pose> {
+    fn beyond(&mut self, part: usize, scratch: &mut ConvexPieces) -> Option<Pose> {
         let end = self.used(0);
         (0..1000).find_map(|_| {
             let pose = self.anywhere(part, scratch)?;
-            let x = end - scratch.bounds[0] + 2.0 * self.spacing();
-            self.rooms[0][2] = self.rooms[0][2].max(x + scratch.bounds[2]);
+            let x = end - scratch.bounds.min.x + 2.0 * self.spacing();
+            self.bins[0].max.x = self.bins[0].max.x.max(x + scratch.bounds.max.x);
             Some(Pose { x, ..pose })
         })
     }
 
     /// Moved left and down as far as nothing is touched, by halving steps.
-    fn slid(&mut self, part: usize, turned: &Turned, mut pose: Pose) -> Pose {
-        let b = turned.bounds;
-        let mut step = (b[2] - b[0]).max(b[3] - b[1]);
+    fn slid(&mut self, part: usize, rotated: &ConvexPieces, mut pose: Pose) -> Pose {
+        let size = rotated.bounds.size();
+        let mut step = size.x.max(size.y);
         let last = step / 500.0;
         while step > last {
             let mut moved = false;
             for (dx, dy) in [(step, 0.0), (0.0, step)] {
                 let next = Pose { x: pose.x - dx, y: pose.y - dy, ..pose };
-                let Some(next) = self.inside(turned, next) else { continue };
+                let Some(next) = self.inside(rotated, next) else { continue };
                 let is_move = next != pose;
-                if is_move && self.cost(part, turned, next, f64::MIN_POSITIVE) <= 0.0 {
+                if is_move && self.cost(part, rotated, next, f64::MIN_POSITIVE) <= 0.0 {
                     pose = next;
                     moved = true;
                 }
@@ -97,30 +98,32 @@ impl Crowd<'_> {
         pose
     }
 
-    /// The right end of what lies in a room.
-    pub(super) fn used(&self, room: usize) -> f64 {
-        let members = self.members.iter().filter(|m| !m.pose.is_nowhere());
-        let inside = members.filter(|m| self.room_at(m.pose.x) == room);
-        inside.map(|m| m.pose.x + m.turned.bounds[2]).fold(self.rooms[room][0], f64::max)
+    /// The right end of what lies in a bin.
+    pub(super) fn used(&self, bin: usize) -> f64 {
+        let items = self.items.iter().filter(|m| !m.pose.is_nowhere());
+        let inside = items.filter(|m| self.bin_at(m.pose.x) == bin);
+        inside
+            .map(|m| m.pose.x + m.rotated.bounds.max.x)
+            .fold(self.bins[bin].min.x, f64::max)
     }
 
-    /// Narrows a room as far as the budget goes; ends with the narrowest layout found
+    /// Narrows a bin as far as the budget goes; ends with the narrowest layout found
     /// without overlap. The layout must have none to begin with.
     /// It goes on for ever if told to, else until nothing is gained; what each round has
     /// found is shown.
-    pub(super) fn compress(
+    pub(super) fn compact(
         &mut self,
-        room: usize,
+        bin: usize,
         endless: bool,
         budget: &mut Budget,
         shown: &mut dyn FnMut(&Self, &mut Budget),
     ) {
-        let mut best = (self.used(room), self.poses());
+        let mut best = (self.used(bin), self.poses());
         loop {
             let work = self.work;
-            let explored = self.explore(room, &mut best, budget);
-            let squeezed = self.squeeze(room, &mut best, budget);
-            self.rooms[room][2] = best.0;
+            let explored = self.explore(bin, &mut best, budget);
+            let squeezed = self.squeeze(bin, &mut best, budget);
+            self.bins[bin].max.x = best.0;
             self.restore(&best.1);
             shown(self, budget);
             // Without an evaluation nothing can come of another round.
@@ -133,17 +136,17 @@ impl Crowd<'_> {
     /// Shrinks in large steps.
     fn explore(
         &mut self,
-        room: usize,
+        bin: usize,
         best: &mut (f64, Vec<Pose>),
         budget: &mut Budget,
     ) -> bool {
         let mut improved = false;
         while !budget.over {
-            self.narrow(room, best, STEP * self.rooms.len() as f64);
-            if !self.settle(budget) || self.used(room) >= best.0 {
+            self.narrow(bin, best, STEP * self.bins.len() as f64);
+            if !self.settle(budget) || self.used(bin) >= best.0 {
                 break;
             }
-            *best = (self.used(room), self.poses());
+            *best = (self.used(bin), self.poses());
             improved = true;
         }
         improved
@@ -169,16 +172,16 @@ impl Crowd<'_> {
     /// Shrinks in small steps from the best layout.
     fn squeeze(
         &mut self,
-        room: usize,
+        bin: usize,
         best: &mut (f64, Vec<Pose>),
         budget: &mut Budget,
     ) -> bool {
         let [mut step, last, factor] = SQUEEZE;
         let mut improved = false;
         while step > last && !budget.over {
-            self.narrow(room, best, step);
-            if self.separate(budget) && self.used(room) < best.0 {
-                *best = (self.used(room), self.poses());
+            self.narrow(bin, best, step);
+            if self.separate(budget) && self.used(bin) < best.0 {
+                *best = (self.used(bin), self.poses());
                 improved = true;
             } else {
                 step *= factor;
@@ -188,34 +191,34 @@ impl Crowd<'_> {
     }
 
     /// The best layout cut somewhere and pushed together.
-    fn narrow(&mut self, room: usize, best: &(f64, Vec<Pose>), share: f64) {
-        let left = self.rooms[room][0];
+    fn narrow(&mut self, bin: usize, best: &(f64, Vec<Pose>), share: f64) {
+        let left = self.bins[bin].min.x;
         let by = (best.0 - left) * share;
-        self.rooms[room][2] = best.0;
+        self.bins[bin].max.x = best.0;
         let cut = self.random.between(left, best.0);
-        let rooms: Vec<usize> = best.1.iter().map(|pose| self.room_at(pose.x)).collect();
-        self.rooms[room][2] = best.0 - by;
-        let pushed = best.1.iter().zip(rooms).map(|(&pose, at)| {
-            let moves = at == room && pose.x > cut;
+        let bins: Vec<usize> = best.1.iter().map(|pose| self.bin_at(pose.x)).collect();
+        self.bins[bin].max.x = best.0 - by;
+        let pushed = best.1.iter().zip(bins).map(|(&pose, at)| {
+            let moves = at == bin && pose.x > cut;
             Pose { x: if moves { (pose.x - by).max(left) } else { pose.x }, ..pose }
         });
         let pushed: Vec<Pose> = pushed.collect();
         self.restore(&pushed);
-        let right = self.rooms[room][2];
-        for part in 0..self.members.len() {
-            let Member { pose, turned, .. } = &self.members[part];
-            let is_there = !pose.is_nowhere() && self.room_at(pose.x) == room;
-            if is_there && pose.x + turned.bounds[2] > right {
-                self.drop_in(part);
+        let right = self.bins[bin].max.x;
+        for part in 0..self.items.len() {
+            let Item { pose, rotated, .. } = &self.items[part];
+            let is_there = !pose.is_nowhere() && self.bin_at(pose.x) == bin;
+            if is_there && pose.x + rotated.bounds.max.x > right {
+                self.insert_overlapping(part);
             }
         }
     }
 
     /// Swaps two large parts of different shape.
     pub(super) fn disrupt(&mut self) {
-        let mut order: Vec<usize> = (0..self.members.len()).collect();
-        order.retain(|&k| !self.members[k].fixed && !self.members[k].pose.is_nowhere());
-        let size = |part: usize| self.shapes[self.members[part].shape].size;
+        let mut order: Vec<usize> = (0..self.items.len()).collect();
+        order.retain(|&k| !self.items[k].fixed && !self.items[k].pose.is_nowhere());
+        let size = |part: usize| self.shapes[self.items[part].shape].size;
         order.sort_by(|&a, &b| size(b).total_cmp(&size(a)).then(a.cmp(&b)));
         let all: f64 = order.iter().map(|&part| size(part)).sum();
         let mut sum = 0.0;
@@ -234,11 +237,11 @@ impl Crowd<'_> {
         let Some(&b) = b.iter().find(differs).or(b.iter().find(|&&b| b != a)) else {
             return;
         };
-        let (pa, pb) = (self.members[a].pose, self.members[b].pose);
+        let (pa, pb) = (self.items[a].pose, self.items[b].pose);
         for (part, to) in [(a, pb), (b, pa)] {
-            let angle = self.members[part].pose.angle;
+            let angle = self.items[part].pose.angle;
             let pose = Pose { angle, ..to };
-            let inside = self.inside(&self.members[part].turned, pose);
+            let inside = self.inside(&self.items[part].rotated, pose);
             if let Some(pose) = inside {
                 self.put(part, pose);
             }

@@ -1,34 +1,34 @@
-//! Turns worth trying, and whether a shape fits a sheet at all.
+//! Rotations worth trying, and whether a shape fits a sheet at all.
 
 use crate::geometry::{Point2, Vector2, trig};
-use crate::nest::{Stock, Turns};
+use crate::nest::{Rotations, Stock};
 use crate::tolerance::ROOM_MM;
 use std::f64::consts::{FRAC_PI_2, PI};
 
-/// A turn by which the outline fits the sheet inside its margin, if there is one.
-pub fn fits(outline: &[Point2], turns: &Turns, stock: &Stock) -> Option<f64> {
+/// A rotation by which the outline fits the sheet inside its margin, if there is one.
+pub fn fits(outline: &[Point2], rotations: &Rotations, stock: &Stock) -> Option<f64> {
     let hull = hull(outline);
-    let room = [stock.width - 2.0 * stock.margin, stock.height - 2.0 * stock.margin];
+    let bin = [stock.width - 2.0 * stock.margin, stock.height - 2.0 * stock.margin];
     let inside = |angle: &f64| {
         let size = extent(&hull, *angle);
-        size[0] <= room[0] - ROOM_MM && size[1] <= room[1] - ROOM_MM
+        size[0] <= bin[0] - ROOM_MM && size[1] <= bin[1] - ROOM_MM
     };
-    candidates(&hull, turns).into_iter().find(inside)
+    candidates(&hull, rotations).into_iter().find(inside)
 }
 
-/// Turns for a first try: the hull's least rectangle lying, head to tail, and upright.
-pub(super) fn good(outline: &[Point2], turns: &Turns, stock: &Stock) -> Vec<f64> {
-    if let Turns::Only(angles) = turns {
+/// Rotations for a first try: the hull's least rectangle lying, head to tail, and upright.
+pub(super) fn good(outline: &[Point2], rotations: &Rotations, stock: &Stock) -> Vec<f64> {
+    if let Rotations::Only(angles) = rotations {
         return angles.iter().copied().map(rounded).collect();
     }
     let lying = lying(outline);
-    let mut turns = vec![lying, lying + PI, lying + FRAC_PI_2, lying - FRAC_PI_2];
-    turns.extend(fits(outline, turns_free(), stock));
-    turns.into_iter().map(rounded).collect()
+    let mut angles = vec![lying, lying + PI, lying + FRAC_PI_2, lying - FRAC_PI_2];
+    angles.extend(fits(outline, freely_rotated(), stock));
+    angles.into_iter().map(rounded).collect()
 }
 
-const fn turns_free() -> &'static Turns {
-    &Turns::Free
+const fn freely_rotated() -> &'static Rotations {
+    &Rotations::Free
 }
 
 /// To 1e-7 degrees, as written in files.
@@ -36,26 +36,26 @@ pub(super) fn rounded(angle: f64) -> f64 {
     ((angle.to_degrees() * 1e7).round() / 1e7).to_radians()
 }
 
-/// Every turn that may make the difference: each hull edge along x and along y, and steps
+/// Every rotation that may make the difference: each hull edge along x and along y, and steps
 /// of one degree.
-fn candidates(hull: &[Point2], turns: &Turns) -> Vec<f64> {
-    match turns {
-        Turns::Only(angles) => angles.clone(),
-        Turns::Free => {
+fn candidates(hull: &[Point2], rotations: &Rotations) -> Vec<f64> {
+    match rotations {
+        Rotations::Only(angles) => angles.clone(),
+        Rotations::Free => {
             let first = lying_of(hull);
-            let edges = edge_turns(hull).flat_map(|angle| [angle, angle + FRAC_PI_2]);
+            let edges = edge_rotations(hull).flat_map(|angle| [angle, angle + FRAC_PI_2]);
             let steps = (0..180).map(|degree| f64::from(degree).to_radians());
             [first, first + FRAC_PI_2].into_iter().chain(edges).chain(steps).collect()
         }
     }
 }
 
-fn edge_turns(hull: &[Point2]) -> impl Iterator<Item = f64> + '_ {
+fn edge_rotations(hull: &[Point2]) -> impl Iterator<Item = f64> + '_ {
     let next = hull.iter().cycle().skip(1);
     hull.iter().zip(next).map(|(a, b)| -trig::atan2(b.y - a.y, b.x - a.x))
 }
 
-/// The turn that lays the smallest rectangle around an outline along x.
+/// The rotation that lays the smallest rectangle around an outline along x.
 pub(super) fn lying(outline: &[Point2]) -> f64 {
     lying_of(&hull(outline))
 }
@@ -66,7 +66,7 @@ fn lying_of(hull: &[Point2]) -> f64 {
         w * h
     };
     let best =
-        edge_turns(hull).min_by(|&a, &b| area(a).total_cmp(&area(b))).unwrap_or(0.0);
+        edge_rotations(hull).min_by(|&a, &b| area(a).total_cmp(&area(b))).unwrap_or(0.0);
     let [w, h] = extent(hull, best);
     if w >= h { best } else { best + FRAC_PI_2 }
 }

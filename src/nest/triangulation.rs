@@ -1,7 +1,7 @@
 //! A triangulation (`spade`) by numbers, with what lies inside its closed lines.
 
 use crate::geometry::Point2;
-use spade::{ConstrainedDelaunayTriangulation, Triangulation};
+use spade::{ConstrainedDelaunayTriangulation, Triangulation as _};
 use std::collections::BTreeMap;
 
 /// An edge of the triangulation, the face to its left and the one to its right.
@@ -13,7 +13,7 @@ pub(super) struct Edge {
 }
 
 /// A triangulation by numbers; face 0 is all that lies outside the hull.
-pub(super) struct Mesh {
+pub(super) struct Triangulation {
     pub(super) points: Vec<Point2>,
     pub(super) edges: Vec<Edge>,
     /// Corners of each face, counter-clockwise.
@@ -21,7 +21,7 @@ pub(super) struct Mesh {
     pub(super) inside: Vec<bool>,
 }
 
-impl Mesh {
+impl Triangulation {
     /// `None` if the rings cross each other or themselves.
     pub(super) fn new(rings: &[Vec<Point2>]) -> Option<Self> {
         let links = rings.iter().flat_map(|ring| {
@@ -74,9 +74,10 @@ impl Mesh {
         for face in cdt.inner_faces() {
             faces[face.index()] = face.vertices().iter().map(|v| v.index()).collect();
         }
-        let mut mesh = Self { points, edges, faces, inside: Vec::new() };
-        mesh.inside = mesh.flooded(|edge, inside| Some(inside ^ edge.fixed)).1;
-        mesh
+        let mut triangulation = Self { points, edges, faces, inside: Vec::new() };
+        triangulation.inside =
+            triangulation.flooded(|edge, inside| Some(inside ^ edge.fixed)).1;
+        triangulation
     }
 
     /// Goes from outside over edges as long as `over` gives the new face a mark: which

@@ -5,12 +5,12 @@
 //! breadth of use: webs between parts are cut off there, so what is returned lies wholly in
 //! the free space.
 
-use crate::geometry::Point2;
 use crate::geometry::predicates::contains;
-use crate::nest::check::{bounds, placed};
-use crate::nest::mesh::Mesh;
-use crate::nest::pieces::area;
-use crate::nest::refuse::why;
+use crate::geometry::ring::{area, signed_area};
+use crate::geometry::{Point2, Rect};
+use crate::nest::check::placed;
+use crate::nest::outline::fault;
+use crate::nest::triangulation::Triangulation;
 use crate::nest::{NestedSheet, Remnant, Shape, Stock};
 use crate::tolerance::WRITTEN_MM;
 
@@ -20,7 +20,7 @@ const WIDTH: f64 = 20.0;
 const AREA: f64 = 4.0 * WIDTH * WIDTH;
 
 /// The free space of a sheet, the largest piece first; drop-outs of holes are not in it.
-pub fn free(nested: &NestedSheet, shapes: &[Shape], stock: &Stock) -> Vec<Remnant> {
+pub fn leftovers(nested: &NestedSheet, shapes: &[Shape], stock: &Stock) -> Vec<Remnant> {
     let mut rings: Vec<Vec<Point2>> = stock.edges().cloned().collect();
     if rings.is_empty() {
         let (w, h) = (stock.width, stock.height);
@@ -29,11 +29,12 @@ pub fn free(nested: &NestedSheet, shapes: &[Shape], stock: &Stock) -> Vec<Remnan
     }
     rings.extend(outermost(nested, shapes));
     let rings: Vec<Vec<Point2>> = rings.iter().map(|ring| divided(ring)).collect();
-    let Some(mesh) = Mesh::new(&rings) else { return Vec::new() };
-    let open = mesh.roomy();
-    let mut free: Vec<Remnant> =
-        regions(mesh.rings(|face| open[face]).iter().map(|ring| straightened(ring)));
-    free.retain(|r| net(r) >= AREA && why(&r.outline, &r.holes).is_none());
+    let Some(triangulation) = Triangulation::new(&rings) else { return Vec::new() };
+    let open = triangulation.roomy();
+    let mut free: Vec<Remnant> = regions(
+        triangulation.rings(|face| open[face]).iter().map(|ring| straightened(ring)),
+    );
+    free.retain(|r| net(r) >= AREA && fault(&r.outline, &r.holes).is_none());
     free.sort_by(|a, b| net(b).total_cmp(&net(a)));
     free
 }
@@ -46,14 +47,11 @@ fn net(region: &Remnant) -> f64 {
 fn outermost(nested: &NestedSheet, shapes: &[Shape]) -> Vec<Vec<Point2>> {
     let outline = |p: &crate::nest::Placement| placed(&shapes[p.shape].outline, p);
     let all: Vec<Vec<Point2>> = nested.placements.iter().map(outline).collect();
-    let boxes: Vec<(Point2, Point2)> = all.iter().map(|ring| bounds(ring)).collect();
+    let boxes: Vec<Rect> = all.iter().map(Rect::around).collect();
     let is_inside = |k: usize| {
         let p = all[k][0];
-        (0..all.len()).any(|other| {
-            let (low, high) = boxes[other];
-            let near = low.x <= p.x && p.x <= high.x && low.y <= p.y && p.y <= high.y;
-            other != k && near && contains(&all[other], p)
-        })
+        let around = |other: usize| boxes[other].contains(p) && contains(&all[other], p);
+        (0..all.len()).any(|other| other != k && around(other))
     };
     (0..all.len()).filter(|&k| !is_inside(k)).map(|k| all[k].clone()).collect()
 }
@@ -87,11 +85,7 @@ fn straightened(ring: &[Point2]) -> Vec<Point2> {
 
 /// Rings sorted into outlines, which run counter-clockwise, and the holes in them.
 fn regions(rings: impl Iterator<Item = Vec<Point2>>) -> Vec<Remnant> {
-    let twice = |ring: &[Point2]| -> f64 {
-        let next = ring.iter().cycle().skip(1);
-        ring.iter().zip(next).map(|(a, b)| a.coords.perp(&b.coords)).sum()
-    };
-    let (outer, inner): (Vec<_>, Vec<_>) = rings.partition(|ring| twice(ring) > 0.0);
+    let (outer, inner): (Vec<_>, Vec<_>) = rings.partition(|r| signed_area(r) > 0.0);
     let region = |outline| Remnant { outline, holes: Vec::new() };
     let mut regions: Vec<Remnant> = outer.into_iter().map(region).collect();
     for hole in inner {
@@ -105,7 +99,7 @@ fn regions(rings: impl Iterator<Item = Vec<Point2>>) -> Vec<Remnant> {
     regions
 }
 
-impl Mesh {
+impl Triangulation {
     /// Free faces that are reached through wide edges, and tips of corners beside them; no
     /// two parts of the region meet in a corner only.
     fn roomy(&self) -> Vec<bool> {
@@ -151,7 +145,7 @@ impl Mesh {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::nest::{Placement, Turns};
+    use crate::nest::{Placement, Rotations};
 
     #[test]
     fn a_slot_between_parts_is_no_free_space_and_the_rest_is() {
@@ -160,13 +154,13 @@ mod tests {
             name: "plate".into(),
             outline: corners.map(|(x, y)| Point2::new(x, y)).to_vec(),
             holes: Vec::new(),
-            turns: Turns::Free,
+            rotations: Rotations::Free,
             priority: 0,
         };
         let at = |x| Placement { shape: 0, angle: 0.0, x, y: 5.0 };
         let nested = NestedSheet { stock: 0, placements: vec![at(5.0), at(107.0)] };
         let stock = Stock::new([500.0, 200.0], 5.0, 2.0);
-        let free = free(&nested, &[plate], &stock);
+        let free = leftovers(&nested, &[plate], &stock);
         let areas: Vec<f64> = free.iter().map(net).collect();
         // 500 - 207 mm wide; the strips along the edges are too narrow to count.
         let wanted = 293.0 * 200.0;

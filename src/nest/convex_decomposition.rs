@@ -6,41 +6,36 @@
 //! simplified outward and cut into convex pieces: triangles merged greedily while they
 //! stay convex (Hertel and Mehlhorn 1983).
 
-use crate::geometry::Point2;
 use crate::geometry::predicates::{Side, side};
-use crate::nest::mesh::{Edge, Mesh};
+use crate::geometry::ring::area;
+use crate::geometry::{Point2, Rect};
+use crate::nest::triangulation::{Edge, Triangulation};
 use crate::tolerance::NEST_SIMPLIFY;
 
 /// Convex pieces, counter-clockwise, that cover the region; `None` if its rings cross.
-pub(super) fn pieces(
+pub(super) fn convex_decomposition(
     outline: &[Point2],
     holes: &[Vec<Point2>],
     gate: f64,
 ) -> Option<Vec<Vec<Point2>>> {
     let mut rings = vec![outline.to_vec()];
-    rings.extend(holes.iter().filter(|hole| width(hole) > gate).cloned());
-    let closed = Mesh::new(&rings)?.closed(gate);
+    rings.extend(holes.iter().filter(|hole| mean_width(hole) > gate).cloned());
+    let closed = Triangulation::new(&rings)?.closed(gate);
     let simpler: Vec<Vec<Point2>> = closed.iter().map(|ring| simplified(ring)).collect();
-    let mesh = Mesh::new(&simpler).or_else(|| Mesh::new(&closed))?;
-    let pieces = mesh.convex();
+    let triangulation =
+        Triangulation::new(&simpler).or_else(|| Triangulation::new(&closed))?;
+    let pieces = triangulation.convex();
     (!pieces.is_empty()).then_some(pieces)
 }
 
 /// Twice the area over half the length around: the width of a long thin shape.
-pub(super) fn width(ring: &[Point2]) -> f64 {
+pub(super) fn mean_width(ring: &[Point2]) -> f64 {
     let next = ring.iter().cycle().skip(1);
     let around: f64 = ring.iter().zip(next).map(|(a, b)| (b - a).norm()).sum();
     if around > 0.0 { 2.0 * area(ring) / around } else { 0.0 }
 }
 
-/// Area of a ring, whichever way it runs.
-pub(super) fn area(ring: &[Point2]) -> f64 {
-    let next = ring.iter().cycle().skip(1);
-    let twice: f64 = ring.iter().zip(next).map(|(a, b)| a.coords.perp(&b.coords)).sum();
-    twice.abs() / 2.0
-}
-
-impl Mesh {
+impl Triangulation {
     /// The rings of the region with pockets behind gates filled.
     fn closed(&self, gate: f64) -> Vec<Vec<Point2>> {
         let enter = |edge: &Edge, _| (!edge.fixed && edge.length > gate).then_some(false);
@@ -124,10 +119,8 @@ fn root(owner: &[usize], mut face: usize) -> usize {
 /// A ring with fewer corners that covers at least as much: small dents are filled, and
 /// two blunt corners become the one in which their outer edges meet.
 fn simplified(ring: &[Point2]) -> Vec<Point2> {
-    let (low, high) =
-        ring.iter().fold((ring[0], ring[0]), |(l, h), p| (l.inf(p), h.sup(p)));
-    let slack =
-        (NEST_SIMPLIFY * (high - low).norm()).min(crate::tolerance::NEST_SIMPLIFY_MM);
+    let diagonal = Rect::around(ring).size().norm();
+    let slack = (NEST_SIMPLIFY * diagonal).min(crate::tolerance::NEST_SIMPLIFY_MM);
     let mut ring = ring.to_vec();
     let mut k = 0;
     let mut unchanged = 0;
@@ -152,8 +145,8 @@ fn simplified(ring: &[Point2]) -> Vec<Point2> {
 
 fn is_small_dent(a: Point2, b: Point2, c: Point2, slack: f64) -> bool {
     let chord = c - a;
-    let turn = (b - a).perp(&(c - b));
-    turn <= 0.0 && -turn <= slack * chord.norm() && (b - a).dot(&(c - b)) > 0.0
+    let bend = (b - a).perp(&(c - b));
+    bend <= 0.0 && -bend <= slack * chord.norm() && (b - a).dot(&(c - b)) > 0.0
 }
 
 /// Where the edges before and after `b`-`c` meet, if that is near.
@@ -195,10 +188,14 @@ mod tests {
             ])
         };
         assert!(
-            (covered(&pieces(&notched(3.0), &[], 5.0).unwrap()) - 4000.0).abs() < 1e-9
+            (covered(&convex_decomposition(&notched(3.0), &[], 5.0).unwrap()) - 4000.0)
+                .abs()
+                < 1e-9
         );
         assert!(
-            (covered(&pieces(&notched(30.0), &[], 5.0).unwrap()) - 3400.0).abs() < 1e-9
+            (covered(&convex_decomposition(&notched(30.0), &[], 5.0).unwrap()) - 3400.0)
+                .abs()
+                < 1e-9
         );
     }
 
@@ -206,9 +203,9 @@ mod tests {
     fn a_wide_hole_stays_open_and_a_bore_is_closed() {
         let square = |a: f64, b: f64| ring(&[(a, a), (b, a), (b, b), (a, b)]);
         let outline = square(0.0, 100.0);
-        let open = pieces(&outline, &[square(20.0, 80.0)], 5.0).unwrap();
+        let open = convex_decomposition(&outline, &[square(20.0, 80.0)], 5.0).unwrap();
         assert!((covered(&open) - 6400.0).abs() < 1e-9);
-        let closed = pieces(&outline, &[square(49.0, 51.0)], 5.0).unwrap();
+        let closed = convex_decomposition(&outline, &[square(49.0, 51.0)], 5.0).unwrap();
         assert_eq!(closed.len(), 1);
     }
 }

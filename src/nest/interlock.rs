@@ -1,14 +1,10 @@
-//! Slender parts, and places beside one another.
+//! Slender parts that interlock: places beside one another.
 //!
 //! Curved strips lie densest in one another's hollows. A place at random seldom is one of
 //! these; one beside another strip, both bent the same way, often is.
 
-use crate::geometry::Point2;
-use crate::nest::check::bounds;
-use crate::nest::crowd::{Crowd, Pose};
-use crate::nest::prepared::turned;
-use crate::nest::turn;
-use crate::nest::turned::Turned;
+use crate::geometry::{Motion, Point2, Rect, Vector2};
+use crate::nest::rotation;
 use std::f64::consts::PI;
 
 /// Length over thickness from which a part is slender.
@@ -20,8 +16,8 @@ const SHIFT: f64 = 0.25;
 
 /// The line along the middle of a slender part.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Spine {
-    /// The turn that lays the part along x.
+pub(super) struct Centerline {
+    /// The rotation that lays the part along x.
     lying: f64,
     /// The line's point half way along, seen from the part's middle, while it lies so.
     half_way: Point2,
@@ -31,13 +27,14 @@ pub(super) struct Spine {
     bend: f64,
 }
 
-impl Spine {
+impl Centerline {
     /// `None` if the part is not slender.
     pub(super) fn of(outline: &[Point2], middle: Point2) -> Option<Self> {
-        let lying = turn::lying(outline);
-        let about = |p: &Point2| Point2::from(turned(p - middle.coords, lying));
+        let lying = rotation::lying(outline);
+        let rotation = Motion::rotation(lying);
+        let about = |p: &Point2| rotation.apply(p - middle.coords);
         let ring: Vec<Point2> = outline.iter().map(about).collect();
-        let (low, high) = bounds(&ring);
+        let Rect { min: low, max: high } = Rect::around(&ring);
         let length = high.x - low.x;
         let across = |share: f64| across(&ring, low.x + share * length);
         let height = |share| across(share).map(|[low, high]| low.midpoint(high));
@@ -47,8 +44,8 @@ impl Spine {
         let half_way = Point2::new(low.x.midpoint(high.x), height(0.5)?);
         let bend = half_way.y - height(0.05)?.midpoint(height(0.95)?);
         let bend = if bend.abs() > thickness / 2.0 { bend } else { 0.0 };
-        let spine = Self { lying, half_way, length, thickness, bend };
-        (length > SLENDER * thickness).then_some(spine)
+        let centerline = Self { lying, half_way, length, thickness, bend };
+        (length > SLENDER * thickness).then_some(centerline)
     }
 }
 
@@ -65,31 +62,38 @@ fn across(ring: &[Point2], x: f64) -> Option<[f64; 2]> {
     })
 }
 
-impl Crowd<'_> {
-    /// A place beside a random other part, if both are slender.
-    pub(super) fn beside(&mut self, part: usize, scratch: &mut Turned) -> Option<Pose> {
-        let other = self.random.below(self.members.len());
-        let there = &self.members[other];
-        if other == part || there.pose.is_nowhere() {
-            return None;
-        }
-        let [own, its] = [part, other].map(|k| self.shapes[self.members[k].shape].spine);
-        let (own, its, pose) = (own?, its?, there.pose);
-        let along = SHIFT * own.length.max(its.length) * self.random.normal();
-        let apart = (own.thickness + its.thickness) / 2.0 + self.spacing();
-        let across = if self.random.unit() < 0.5 { apart } else { -apart };
-        // Both bent the same way; if one is straight, either end may be ahead.
-        let bent = own.bend * its.bend;
-        let ahead = bent > 0.0 || (bent >= 0.0 && self.random.unit() < 0.5);
-        let way = pose.angle - its.lying;
-        let own_way = if ahead { way } else { way + PI };
-        let [dx, dy] = turned(its.half_way, way);
-        let [ax, ay] = turned(Point2::new(along, across), way);
-        let [ox, oy] = turned(own.half_way, own_way);
-        let angle = own_way + own.lying;
-        self.turn(part, angle, scratch);
-        let (x, y) = (pose.x + dx + ax - ox, pose.y + dy + ay - oy);
-        self.inside(scratch, Pose { angle, x, y })
+impl Centerline {
+    /// Angle and middle of a part that lies beside another, `along` and `across` the
+    /// other's line, heading the same way or the opposite one.
+    pub(super) fn beside(
+        &self,
+        other: &Self,
+        (angle, middle): (f64, Vector2),
+        [along, across]: [f64; 2],
+        is_opposite: bool,
+    ) -> (f64, Vector2) {
+        let way = angle - other.lying;
+        let own_way = if is_opposite { way + PI } else { way };
+        let rotation = Motion::rotation(way);
+        let half_way = rotation.rotate(other.half_way.coords);
+        let aside = rotation.rotate(Vector2::new(along, across));
+        let own = Motion::rotation(own_way).rotate(self.half_way.coords);
+        (own_way + self.lying, middle + half_way + aside - own)
+    }
+
+    /// How far apart the lines of two parts are that lie side by side.
+    pub(super) fn apart(&self, other: &Self) -> f64 {
+        (self.thickness + other.thickness) / 2.0
+    }
+
+    /// How far along one another they are shifted at random.
+    pub(super) fn shift(&self, other: &Self) -> f64 {
+        SHIFT * self.length.max(other.length)
+    }
+
+    /// Positive if both are bent the same way, 0 if one is straight.
+    pub(super) fn agreement(&self, other: &Self) -> f64 {
+        self.bend * other.bend
     }
 }
 
@@ -111,16 +115,19 @@ mod tests {
     #[test]
     fn the_spine_of_a_bow_is_its_middle_line() {
         let ring = bow(0.5, 1.7);
-        let spine = Spine::of(&ring, Point2::origin()).unwrap();
-        assert!((spine.thickness - 10.0).abs() < 0.2, "{spine:?}");
-        assert!((spine.half_way.coords.norm() - 100.0).abs() < 0.2, "{spine:?}");
-        assert!(spine.bend.abs() > 10.0, "{spine:?}");
+        let centerline = Centerline::of(&ring, Point2::origin()).unwrap();
+        assert!((centerline.thickness - 10.0).abs() < 0.2, "{centerline:?}");
+        assert!(
+            (centerline.half_way.coords.norm() - 100.0).abs() < 0.2,
+            "{centerline:?}"
+        );
+        assert!(centerline.bend.abs() > 10.0, "{centerline:?}");
     }
 
     #[test]
     fn a_square_is_not_slender() {
         let square = [(0.0, 0.0), (10.0, 0.0), (10.0, 10.0), (0.0, 10.0)];
         let square = square.map(|(x, y)| Point2::new(x, y));
-        assert!(Spine::of(&square, Point2::new(5.0, 5.0)).is_none());
+        assert!(Centerline::of(&square, Point2::new(5.0, 5.0)).is_none());
     }
 }

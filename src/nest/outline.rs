@@ -1,11 +1,63 @@
-//! Drawn lines that cross or touch themselves in small loops, as programs draw them at
-//! inner corners so that the laser burns those out.
+//! Outlines that no layout could be checked with, and what can be made of some.
+//!
+//! Programs draw small loops at inner corners so that the laser burns those out: lines that
+//! cross or touch themselves, of which only the edge around them matters.
 
-use crate::geometry::Point2;
-use crate::geometry::predicates::{in_segment, is_simple, segments_meet};
-use crate::nest::mesh::Mesh;
-use crate::nest::pieces::area;
+use crate::geometry::predicates::{contains, in_segment, is_simple, segments_meet};
+use crate::geometry::ring::area;
+use crate::geometry::{Point2, Rect};
+use crate::nest::triangulation::Triangulation;
+use crate::nest::{NestError, Shape};
 use crate::tolerance::NEST_LOOPS;
+
+/// Largest coordinate, mm: beyond, rounding to 1e-6 mm means nothing.
+const FARTHEST: f64 = 1e6;
+
+/// Why a shape cannot be nested, if it cannot.
+pub fn outline_fault(shape: &Shape) -> Option<NestError> {
+    fault(&shape.outline, &shape.holes)
+        .map(|why| NestError::BadOutline { name: shape.name.clone(), why })
+}
+
+/// Why no layout could be checked with such an outline and its holes, if none could.
+pub(super) fn fault(
+    outline: &Vec<Point2>,
+    holes: &[Vec<Point2>],
+) -> Option<&'static str> {
+    let rings = || std::iter::once(outline).chain(holes);
+    let mut corners = rings().flatten();
+    if corners.any(|p| !(p.x.abs() <= FARTHEST && p.y.abs() <= FARTHEST)) {
+        return Some("a coordinate is beyond 1,000,000 mm");
+    }
+    if rings().any(|ring| ring.len() < 3) {
+        return Some("it has fewer than three corners");
+    }
+    if rings().any(|ring| area(ring) <= 0.0) {
+        return Some("it has no area");
+    }
+    if !rings().all(|ring| is_simple(ring)) {
+        return Some("a line crosses or touches itself");
+    }
+    let rings: Vec<_> = rings().collect();
+    let edges = |k: usize| rings[k].iter().zip(rings[k].iter().cycle().skip(1));
+    for hole in 1..rings.len() {
+        if !contains(rings[0], rings[hole][0]) {
+            return Some("a hole is outside of it");
+        }
+        let bounds = Rect::around(rings[hole]);
+        for other in 0..hole {
+            let near =
+                edges(other).filter(|(a, b)| Rect::around([*a, *b]).touches(&bounds));
+            if near
+                .into_iter()
+                .any(|(a, b)| edges(hole).any(|(c, d)| segments_meet(*a, *b, *c, *d)))
+            {
+                return Some("a hole crosses or touches another line");
+            }
+        }
+    }
+    None
+}
 
 /// Cut points are rounded, so lines that were cut may cross anew.
 const ROUNDS: usize = 3;
@@ -13,15 +65,15 @@ const ROUNDS: usize = 3;
 /// The edge of all that a closed line runs around, if it is one closed line but for small
 /// loops; as it is if it neither crosses nor touches itself. Of an outline all loops must
 /// lie inside of that edge; those of a hole may lie outside, in the material.
-pub fn untangled(ring: &[Point2], is_hole: bool) -> Option<Vec<Point2>> {
+pub fn without_loops(ring: &[Point2], is_hole: bool) -> Option<Vec<Point2>> {
     if is_simple(ring) {
         return Some(ring.to_vec());
     }
     let mut links = links(ring);
     for _ in 0..ROUNDS {
         links = cut(&links);
-        if let Some(mesh) = Mesh::linked(&links) {
-            return edge(&mesh, area(ring), is_hole);
+        if let Some(triangulation) = Triangulation::linked(&links) {
+            return edge(&triangulation, area(ring), is_hole);
         }
     }
     None
@@ -35,9 +87,9 @@ fn links(ring: &[Point2]) -> Vec<[Point2; 2]> {
 }
 
 /// The largest ring around what cannot be reached from outside.
-fn edge(mesh: &Mesh, drawn: f64, is_hole: bool) -> Option<Vec<Point2>> {
-    let outside = mesh.flooded(|edge, _| (!edge.fixed).then_some(false)).0;
-    let rings = mesh.rings(|face| !outside[face]);
+fn edge(triangulation: &Triangulation, drawn: f64, is_hole: bool) -> Option<Vec<Point2>> {
+    let outside = triangulation.flooded(|edge, _| (!edge.fixed).then_some(false)).0;
+    let rings = triangulation.rings(|face| !outside[face]);
     let mut rings: Vec<Vec<Point2>> = rings.into_iter().flat_map(parted).collect();
     rings.sort_by(|a, b| area(b).total_cmp(&area(a)));
     let is_one = rings.len() == 1 || is_hole;
@@ -63,9 +115,7 @@ fn parted(ring: Vec<Point2>) -> Vec<Vec<Point2>> {
 /// All edges cut where they meet others.
 fn cut(links: &[[Point2; 2]]) -> Vec<[Point2; 2]> {
     let meets = |&[a, b]: &[Point2; 2], &[c, d]: &[Point2; 2]| {
-        let (low, high) = (a.inf(&b), a.sup(&b));
-        let (l, h) = (c.inf(&d), c.sup(&d));
-        let near = l.x <= high.x && low.x <= h.x && l.y <= high.y && low.y <= h.y;
+        let near = Rect::around(&[a, b]).touches(&Rect::around(&[c, d]));
         near && segments_meet(a, b, c, d)
     };
     let mut all = Vec::new();
@@ -130,7 +180,7 @@ mod tests {
     fn loops_at_inner_corners_are_left_out_of_an_outline() {
         let drawn = ring(&NOTCHED);
         assert!(!is_simple(&drawn));
-        let outline = untangled(&drawn, false).expect("only small loops");
+        let outline = without_loops(&drawn, false).expect("only small loops");
         assert!(is_simple(&outline));
         assert!((area(&outline) - 4600.0).abs() < 0.02, "{}", area(&outline));
     }
@@ -147,16 +197,17 @@ mod tests {
             (30.0, 20.0),
             (10.0, 20.0),
         ]);
-        let free = untangled(&hole, true).expect("only small loops");
+        let free = without_loops(&hole, true).expect("only small loops");
         assert!((area(&free) - 200.0).abs() < 0.01);
-        assert!(untangled(&hole, false).is_none(), "a loop outside of an outline");
+        assert!(without_loops(&hole, false).is_none(), "a loop outside of an outline");
         let bow_tie = ring(&[(0.0, 0.0), (1.0, 1.0), (1.0, 0.0), (0.0, 1.0)]);
         assert!(
-            untangled(&bow_tie, false).is_none() && untangled(&bow_tie, true).is_none()
+            without_loops(&bow_tie, false).is_none()
+                && without_loops(&bow_tie, true).is_none()
         );
         let turns = (0..5).map(|k| f64::from(k) * 4.0 * std::f64::consts::PI / 5.0);
         let star: Vec<Point2> =
             turns.map(|angle| Point2::new(trig::cos(angle), trig::sin(angle))).collect();
-        assert!(untangled(&star, false).is_none());
+        assert!(without_loops(&star, false).is_none());
     }
 }

@@ -2,9 +2,10 @@
 //! none at all.
 
 use crate::nest::Stock;
-use crate::nest::crowd::{Crowd, Pose};
+use crate::nest::budget::Budget;
+use crate::nest::collision_shape::Pose;
 use crate::nest::search::Search;
-use crate::nest::separate::Budget;
+use crate::nest::state::OverlapState;
 use std::collections::BTreeMap;
 
 /// Attempts at each choice of sheets.
@@ -14,7 +15,7 @@ const ATTEMPTS: usize = 2;
 const EASY: f64 = 0.6;
 
 /// Sheets given up, by kind, and those taken instead.
-struct Exchange {
+struct BinExchange {
     given: Vec<usize>,
     taken: Vec<usize>,
     /// Share of the material that parts would cover.
@@ -55,11 +56,11 @@ impl Search<'_> {
     }
 
     /// All exchanges that save something and leave enough material.
-    fn exchanges(&self, fullest: f64) -> Vec<Exchange> {
-        let stock = self.yard.stock;
+    fn exchanges(&self, fullest: f64) -> Vec<BinExchange> {
+        let stock = self.instance.stock;
         let mut used = vec![0; stock.len()];
         self.sheets.iter().for_each(|&kind| used[kind] += 1);
-        let parts: f64 = (0..self.sheets.len()).map(|room| self.filled(room)).sum();
+        let parts: f64 = (0..self.sheets.len()).map(|bin| self.filled(bin)).sum();
         let area: f64 = self.sheets.iter().map(|&kind| stock[kind].area()).sum();
         let sum = |kinds: &[usize], of: fn(&Stock) -> f64| -> f64 {
             kinds.iter().map(|&kind| of(&stock[kind])).sum()
@@ -90,13 +91,13 @@ impl Search<'_> {
                 let better = saved > 0.0 || (saved >= 0.0 && fewer);
                 if better && full < fullest && taken.iter().all(|&kind| is_there(kind)) {
                     let (given, taken) = (given.clone(), taken.clone());
-                    all.push(Exchange { given, taken, full, saved });
+                    all.push(BinExchange { given, taken, full, saved });
                 }
             }
         }
-        let easiest = |a: &Exchange, b: &Exchange| {
-            let full = |exchange: &Exchange| exchange.full.max(EASY);
-            let for_nothing = |exchange: &Exchange| exchange.saved <= 0.0;
+        let easiest = |a: &BinExchange, b: &BinExchange| {
+            let full = |exchange: &BinExchange| exchange.full.max(EASY);
+            let for_nothing = |exchange: &BinExchange| exchange.saved <= 0.0;
             let order = for_nothing(a).cmp(&for_nothing(b));
             order.then(full(a).total_cmp(&full(b))).then(b.saved.total_cmp(&a.saved))
         };
@@ -107,66 +108,70 @@ impl Search<'_> {
     /// Gives up sheets, the emptiest of their kind or, by rank, the next; their parts go
     /// where they overlap least, and all are separated. If that fails, everything is as
     /// before.
-    fn attempt(&mut self, exchange: &Exchange, rank: usize, budget: &mut Budget) -> bool {
+    fn attempt(
+        &mut self,
+        exchange: &BinExchange,
+        rank: usize,
+        budget: &mut Budget,
+    ) -> bool {
         let mut order: Vec<usize> = (0..self.sheets.len()).collect();
-        let filled: Vec<f64> = order.iter().map(|&room| self.filled(room)).collect();
+        let filled: Vec<f64> = order.iter().map(|&bin| self.filled(bin)).collect();
         order.sort_by(|&a, &b| filled[a].total_cmp(&filled[b]).then(b.cmp(&a)));
         let mut gone = vec![false; self.sheets.len()];
         for &kind in &exchange.given {
-            let of_kind = order.iter().filter(|&&room| self.sheets[room] == kind);
-            let left: Vec<usize> =
-                of_kind.filter(|&&room| !gone[room]).copied().collect();
-            if let Some(&room) = left.get(rank.min(left.len().saturating_sub(1))) {
-                gone[room] = true;
+            let of_kind = order.iter().filter(|&&bin| self.sheets[bin] == kind);
+            let left: Vec<usize> = of_kind.filter(|&&bin| !gone[bin]).copied().collect();
+            if let Some(&bin) = left.get(rank.min(left.len().saturating_sub(1))) {
+                gone[bin] = true;
             }
         }
-        let kept = |rooms: &[usize]| -> Vec<usize> {
-            rooms.iter().zip(&gone).filter(|(_, gone)| !**gone).map(|(k, _)| *k).collect()
+        let kept = |bins: &[usize]| -> Vec<usize> {
+            bins.iter().zip(&gone).filter(|(_, gone)| !**gone).map(|(k, _)| *k).collect()
         };
         let mut sheets = kept(&self.sheets);
-        let rooms = kept(&(0..self.sheets.len()).collect::<Vec<_>>());
+        let bins = kept(&(0..self.sheets.len()).collect::<Vec<_>>());
         sheets.extend(&exchange.taken);
-        self.with_sheets(sheets, &rooms, budget)
+        self.with_sheets(sheets, &bins, budget)
     }
 
-    /// Goes over to other sheets; `rooms` are the old rooms that the first of them were.
+    /// Goes over to other sheets; `bins` are the old bins that the first of them were.
     fn with_sheets(
         &mut self,
         sheets: Vec<usize>,
-        rooms: &[usize],
+        bins: &[usize],
         budget: &mut Budget,
     ) -> bool {
-        let (mut next, mut homeless) = self.moved(&sheets, rooms);
-        let size = |part: usize| self.yard.shapes[self.crowd.members[part].shape].size;
+        let (mut next, mut homeless) = self.moved(&sheets, bins);
+        let size = |part: usize| self.instance.shapes[self.state.items[part].shape].size;
         homeless.sort_by(|&a, &b| size(b).total_cmp(&size(a)).then(a.cmp(&b)));
-        let placed = homeless.into_iter().all(|part| next.drop_in(part));
+        let placed = homeless.into_iter().all(|part| next.insert_overlapping(part));
         if placed && next.separate(budget) {
-            self.crowd = next;
+            self.state = next;
             self.sheets = sheets;
             return true;
         }
-        (self.crowd.random, self.crowd.work) = (next.random, next.work);
+        (self.state.random, self.state.work) = (next.random, next.work);
         false
     }
 }
 
 impl<'a> Search<'a> {
-    /// A crowd on other sheets, with the parts of those rooms that are kept, and the parts
-    /// that lose their room.
-    fn moved(&self, sheets: &[usize], rooms: &[usize]) -> (Crowd<'a>, Vec<usize>) {
-        let mut next = self.yard.crowd(sheets, self.crowd.random.clone());
-        next.work = self.crowd.work;
+    /// A state on other sheets, with the parts of those bins that are kept, and the parts
+    /// that lose their bin.
+    fn moved(&self, sheets: &[usize], bins: &[usize]) -> (OverlapState<'a>, Vec<usize>) {
+        let mut next = self.instance.state(sheets, self.state.random.clone());
+        next.work = self.state.work;
         let mut homeless = Vec::new();
         for part in 0..self.priorities.len() {
-            let member = &self.crowd.members[part];
-            if member.fixed || member.pose.is_nowhere() {
+            let item = &self.state.items[part];
+            if item.fixed || item.pose.is_nowhere() {
                 continue;
             }
-            let room = self.crowd.room_at(member.pose.x);
-            match rooms.iter().position(|&old| old == room) {
+            let bin = self.state.bin_at(item.pose.x);
+            match bins.iter().position(|&old| old == bin) {
                 Some(new) => {
-                    let by = next.rooms[new][0] - self.crowd.rooms[room][0];
-                    next.put(part, Pose { x: member.pose.x + by, ..member.pose });
+                    let by = next.bins[new].min.x - self.state.bins[bin].min.x;
+                    next.put(part, Pose { x: item.pose.x + by, ..item.pose });
                 }
                 None => homeless.push(part),
             }
@@ -174,16 +179,16 @@ impl<'a> Search<'a> {
         (next, homeless)
     }
 
-    /// Goes on without a room in which nothing lies.
-    pub(super) fn give_up(&mut self, room: usize) {
-        let rooms: Vec<usize> = (0..self.sheets.len()).filter(|&k| k != room).collect();
-        let sheets: Vec<usize> = rooms.iter().map(|&k| self.sheets[k]).collect();
-        (self.crowd, _) = self.moved(&sheets, &rooms);
+    /// Goes on without a bin in which nothing lies.
+    pub(super) fn close_bin(&mut self, bin: usize) {
+        let bins: Vec<usize> = (0..self.sheets.len()).filter(|&k| k != bin).collect();
+        let sheets: Vec<usize> = bins.iter().map(|&k| self.sheets[k]).collect();
+        (self.state, _) = self.moved(&sheets, &bins);
         self.sheets = sheets;
     }
 }
 
-impl Exchange {
+impl BinExchange {
     /// The kinds of sheet after it, in order.
     fn after(&self, sheets: &[usize]) -> Vec<usize> {
         let mut after = sheets.to_vec();

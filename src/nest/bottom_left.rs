@@ -1,12 +1,12 @@
-//! One sheet being filled from below: parts are let down onto what lies there.
+//! One sheet filled bottom-left: parts are let down onto what lies there.
 //!
 //! The sheet is cut into columns. Of what lies on it only the upper profile counts; of a
 //! part its lower and upper profile, over whole columns, so that rounding to columns
 //! never lets two parts come too near. The lower profile is lowered by a disc of the
 //! spacing.
 
-use crate::geometry::{Point2, trig};
-use crate::nest::{NestedSheet, Placement, Shape, Stock, turn};
+use crate::geometry::{Motion, Point2, Rect};
+use crate::nest::{NestedSheet, Placement, Shape, Stock, rotation};
 use crate::tolerance::{PLACED_MM, SAME_COST_MM};
 
 /// Width of a column, mm.
@@ -14,7 +14,7 @@ const COLUMN: f64 = 1.0;
 
 /// A sheet with what lies on it.
 #[derive(Debug, Clone)]
-pub(super) struct Board {
+pub(super) struct OpenSheet {
     pub(super) stock: usize,
     pub(super) placements: Vec<Placement>,
     sheet: Stock,
@@ -37,14 +37,14 @@ struct Profile {
 }
 
 /// A place for a part and what it costs.
-struct Seat {
+struct Position {
     cost: f64,
     turn: usize,
     column: usize,
     height: f64,
 }
 
-impl Board {
+impl OpenSheet {
     pub(super) fn new(stock: usize, sheet: &Stock) -> Self {
         let columns = ((sheet.width - 2.0 * sheet.margin) / COLUMN).floor().max(0.0);
         let profile = vec![f64::NEG_INFINITY; columns as usize];
@@ -60,43 +60,43 @@ impl Board {
         self.profile.iter().copied().fold(0.0, f64::max)
     }
 
-    /// Lays a part where it costs least; `false` if there is no room.
+    /// Lays a part where it costs least; `false` if it does not fit.
     pub(super) fn place(&mut self, index: usize, shape: &Shape) -> bool {
-        let turns = turn::good(&shape.outline, &shape.turns, &self.sheet);
-        let profiles: Vec<Profile> = turns
+        let angles = rotation::good(&shape.outline, &shape.rotations, &self.sheet);
+        let profiles: Vec<Profile> = angles
             .into_iter()
             .map(|angle| Profile::new(&shape.outline, angle, self.sheet.spacing))
             .collect();
-        let seats =
-            profiles.iter().enumerate().filter_map(|(turn, p)| self.seat(turn, p));
+        let positions =
+            profiles.iter().enumerate().filter_map(|(turn, p)| self.position(turn, p));
         let best =
-            seats.min_by(|a, b| a.cost.total_cmp(&b.cost).then(a.turn.cmp(&b.turn)));
-        let Some(seat) = best else { return false };
-        let profile = &profiles[seat.turn];
+            positions.min_by(|a, b| a.cost.total_cmp(&b.cost).then(a.turn.cmp(&b.turn)));
+        let Some(position) = best else { return false };
+        let profile = &profiles[position.turn];
         for (k, upper) in profile.upper.iter().enumerate() {
-            let taken = &mut self.profile[seat.column + k];
-            *taken = taken.max(seat.height + upper);
+            let taken = &mut self.profile[position.column + k];
+            *taken = taken.max(position.height + upper);
         }
         self.placements.push(Placement {
             shape: index,
             angle: profile.angle,
-            x: up(self.sheet.margin + seat.column as f64 * COLUMN - profile.left),
-            y: up(seat.height),
+            x: up(self.sheet.margin + position.column as f64 * COLUMN - profile.left),
+            y: up(position.height),
         });
         true
     }
 
     /// The cheapest column for a turned part: low, and with little lost below it.
-    fn seat(&self, turn: usize, profile: &Profile) -> Option<Seat> {
+    fn position(&self, turn: usize, profile: &Profile) -> Option<Position> {
         let columns = profile.lower.len();
-        let room = self.sheet.width - 2.0 * self.sheet.margin;
+        let width = self.sheet.width - 2.0 * self.sheet.margin;
         let ceiling = self.sheet.height - self.sheet.margin - PLACED_MM;
         let floor = self.sheet.margin;
         let highest = profile.upper.iter().copied().fold(f64::NEG_INFINITY, f64::max);
         let lowest = profile.lower.iter().copied().fold(f64::INFINITY, f64::min);
-        let mut best: Option<Seat> = None;
+        let mut best: Option<Position> = None;
         for column in 0..=self.profile.len().checked_sub(columns)? {
-            if column as f64 * COLUMN + profile.width > room - PLACED_MM {
+            if column as f64 * COLUMN + profile.width > width - PLACED_MM {
                 break;
             }
             let height = self.rest(column, profile).max(floor - lowest);
@@ -111,7 +111,7 @@ impl Board {
                 .sum();
             let cost = height + highest + lost / columns as f64;
             if best.as_ref().is_none_or(|best| cost < best.cost - SAME_COST_MM) {
-                best = Some(Seat { cost, turn, column, height });
+                best = Some(Position { cost, turn, column, height });
             }
         }
         best
@@ -135,14 +135,10 @@ fn up(length: f64) -> f64 {
 
 impl Profile {
     fn new(outline: &[Point2], angle: f64, spacing: f64) -> Self {
-        let (sin, cos) = (trig::sin(angle), trig::cos(angle));
-        let turned: Vec<Point2> = outline
-            .iter()
-            .map(|p| Point2::new(cos * p.x - sin * p.y, sin * p.x + cos * p.y))
-            .collect();
-        let left = turned.iter().map(|p| p.x).fold(f64::INFINITY, f64::min);
-        let right = turned.iter().map(|p| p.x).fold(f64::NEG_INFINITY, f64::max);
-        let width = right - left;
+        let rotation = Motion::rotation(angle);
+        let turned: Vec<Point2> = outline.iter().map(|&p| rotation.apply(p)).collect();
+        let bounds = Rect::around(&turned);
+        let (left, width) = (bounds.min.x, bounds.size().x);
         let columns = (width / COLUMN).floor() as usize + 1;
         let mut lower = vec![f64::INFINITY; columns];
         let mut upper = vec![f64::NEG_INFINITY; columns];
