@@ -1,7 +1,8 @@
 //! A first layout that is sound: parts are let down one by one, from large to small.
 //!
 //! Remnants, and sheets on which parts lie already, are filled at random places, bare
-//! rectangles bottom-left: each part stays where it leaves least room lost. A few orders of parts are tried.
+//! rectangles bottom-left: each part stays where it leaves least room lost. A few orders
+//! of parts are tried.
 
 use crate::nest::bottom_left::OpenSheet;
 use crate::nest::convex::ConvexPieces;

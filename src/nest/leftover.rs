@@ -30,7 +30,7 @@ pub fn leftovers(nested: &NestedSheet, shapes: &[Shape], stock: &Stock) -> Vec<R
     rings.extend(outermost(nested, shapes));
     let rings: Vec<Vec<Point2>> = rings.iter().map(|ring| divided(ring)).collect();
     let Some(triangulation) = Triangulation::new(&rings) else { return Vec::new() };
-    let open = triangulation.roomy();
+    let open = triangulation.wide_free_faces();
     let mut free: Vec<Remnant> = regions(
         triangulation.rings(|face| open[face]).iter().map(|ring| straightened(ring)),
     );
@@ -102,7 +102,7 @@ fn regions(rings: impl Iterator<Item = Vec<Point2>>) -> Vec<Remnant> {
 impl Triangulation {
     /// Free faces that are reached through wide edges, and tips of corners beside them; no
     /// two parts of the region meet in a corner only.
-    fn roomy(&self) -> Vec<bool> {
+    fn wide_free_faces(&self) -> Vec<bool> {
         let wide = |k: usize| !self.edges[k].fixed && self.edges[k].length > WIDTH;
         let mut open = vec![false; self.faces.len()];
         for k in (0..self.edges.len()).filter(|&k| wide(k)) {
