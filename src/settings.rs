@@ -1,7 +1,7 @@
 //! What a job is made with: the inner form of a template, made once and passed to all stages.
 
 use crate::joint::Joint;
-use crate::nest::{Effort, Stock, Rotations};
+use crate::nest::{Effort, Rotations, Stock};
 use crate::parts::{Fit, FoldMarks, Marking};
 use crate::rigidity::Fingerprint;
 use crate::sheets::{Frame, Kerf};

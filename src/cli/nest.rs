@@ -63,8 +63,8 @@ fn order(args: &NestArgs, name: &str) -> Result<(Order, Vec<Finding>), Failure> 
             return Ok((order.map_err(Failure::of)?, Vec::new()));
         }
     };
-    let drawn =
-        drawn_parts(&input::bytes_of(&args.input)?, format, &known_layers()).map_err(Failure::of)?;
+    let drawn = drawn_parts(&input::bytes_of(&args.input)?, format, &known_layers())
+        .map_err(Failure::of)?;
     nest_drawing::order(&drawn, name).map_err(Failure::of)
 }
 
