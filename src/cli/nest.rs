@@ -11,7 +11,7 @@ use crate::cli::nest_progress::Progress;
 use crate::cli::outcome::{End, Failure, print};
 use crate::diagnostic::{Finding, Located, Severity};
 use crate::drawing::{Format, drawn_parts};
-use crate::export::{self, PngLook, known_layers};
+use crate::export::{self, LAYERS, PngLook};
 use crate::gate::approve_loose;
 use crate::json;
 use crate::nest::{self, Effort, NestError, Shape, Solution, Stock};
@@ -63,8 +63,12 @@ fn order(args: &NestArgs, name: &str) -> Result<(Order, Vec<Finding>), Failure> 
             return Ok((order.map_err(Failure::of)?, Vec::new()));
         }
     };
-    let drawn = drawn_parts(&input::bytes_of(&args.input)?, format, &known_layers())
-        .map_err(Failure::of)?;
+    let drawn = drawn_parts(
+        &input::bytes_of(&args.input)?,
+        format,
+        &LAYERS.map(|layer| layer.known()),
+    )
+    .map_err(Failure::of)?;
     nest_drawing::order(&drawn, name).map_err(Failure::of)
 }
 

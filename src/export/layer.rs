@@ -25,16 +25,16 @@ pub const LAYERS: [Layer; 5] = [
     Layer { name: "SHEET", aci: 8, rgb: [128, 128, 128], operation: None },
 ];
 
-/// The layers as a reader of drawings looks for them.
-pub fn known_layers() -> [KnownLayer; 5] {
-    LAYERS.map(|layer| KnownLayer { name: layer.name, rgb: layer.rgb })
-}
-
 const fn of(operation: Operation, aci: u8, rgb: [u8; 3]) -> Layer {
     Layer { name: operation.layer(), aci, rgb, operation: Some(operation) }
 }
 
 impl Layer {
+    /// The layer as a reader of drawings looks for it.
+    pub const fn known(&self) -> KnownLayer {
+        KnownLayer { name: self.name, rgb: self.rgb }
+    }
+
     /// The paths of a sheet on this layer, in the order of its strokes.
     pub fn paths<'a>(&self, sheet: &'a Sheet) -> Vec<&'a Path> {
         match self.operation {

@@ -15,7 +15,7 @@ mod sample;
 mod svg;
 
 pub use dxf::dxf;
-pub use layer::{LAYERS, Layer, known_layers};
+pub use layer::{LAYERS, Layer};
 pub use pdf::{pdf, pdf_in};
 pub use png::{PngLook, png};
 pub use svg::{svg, svg_in};

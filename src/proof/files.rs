@@ -1,7 +1,7 @@
 //! The drawings of a group of files, format by format.
 
 use crate::drawing::{Drawing, DrawingError, KnownLayer, read_dxf, read_pdf, read_svg};
-use crate::export::known_layers;
+use crate::export::LAYERS;
 use crate::manifest::{Manifest, SheetEntry};
 use crate::proof::JobFiles;
 use crate::proof::finding::{ProofFinding, Spot};
@@ -52,7 +52,7 @@ fn read<T>(
     facts: &mut Vec<ProofFinding>,
 ) -> Option<T> {
     let spot = Spot::file(path);
-    match files.get(path).map(|bytes| reader(bytes, &known_layers())) {
+    match files.get(path).map(|bytes| reader(bytes, &LAYERS.map(|layer| layer.known()))) {
         Some(Ok(read)) => return Some(read),
         Some(Err(error)) => {
             let reason = error.to_string();
