@@ -41,6 +41,7 @@ pub mod diagnostic;
 pub mod drawing;
 pub mod export;
 pub mod fabrication;
+pub mod files;
 pub mod gate;
 pub mod geometry;
 pub mod ids;

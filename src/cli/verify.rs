@@ -4,6 +4,7 @@ use crate::cli::console::Console;
 use crate::cli::flags::verify::VerifyArgs;
 use crate::cli::outcome::{End, Failure, print};
 use crate::diagnostic::passes;
+use crate::files::{FileFormat, ORDER, PREVIEW, SHEETS};
 use crate::json;
 use crate::proof::{JobFiles, Proof, ProofError, prove};
 use miette::Diagnostic;
@@ -47,25 +48,24 @@ fn verify(dir: &Path) -> Result<Proof, VerifyError> {
         move |source| VerifyError::Unreadable { path, source }
     };
     let mut files = JobFiles::new();
-    let below = [("sheets", "sheets/"), ("order", "order/")];
-    let below = below.map(|(folder, prefix)| (dir.join(folder), prefix));
-    for (folder, prefix) in std::iter::once((dir.to_owned(), "")).chain(below) {
+    let below = [SHEETS, ORDER].map(|name| (dir.join(name), format!("{name}/")));
+    for (folder, prefix) in std::iter::once((dir.to_owned(), String::new())).chain(below)
+    {
         if !prefix.is_empty() && !folder.is_dir() {
             continue;
         }
         for entry in std::fs::read_dir(&folder).map_err(unreadable(&folder))? {
             let path = entry.map_err(unreadable(&folder))?.path();
             let name = path.file_name().unwrap_or_default().to_string_lossy();
-            let read =
-                [".json", ".dxf", ".svg", ".pdf"].iter().any(|end| name.ends_with(end));
+            let read = name.ends_with(".json") || FileFormat::is_cut(&name);
             if read && path.is_file() {
                 let bytes = std::fs::read(&path).map_err(unreadable(&path))?;
                 files.insert(format!("{prefix}{name}"), bytes);
             }
         }
     }
-    if dir.join("preview").is_dir() {
-        files.insert("preview/".to_owned(), Vec::new());
+    if dir.join(PREVIEW).is_dir() {
+        files.insert(format!("{PREVIEW}/"), Vec::new());
     }
     let path = dir.to_owned();
     prove(&files).map_err(|source| VerifyError::NoProof { path, source })

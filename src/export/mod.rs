@@ -23,6 +23,7 @@ pub use svg::{svg, svg_in};
 /// Width of a drawn line in SVG and PDF, mm: thin enough to be a cut for every driver.
 const LINE_WIDTH: f64 = 0.025;
 
+use crate::files::{FileFormat, PREVIEW, SHEETS};
 use crate::gate::Approved;
 use crate::geometry::Point2;
 use crate::lettering::letter;
@@ -32,6 +33,27 @@ use std::panic::resume_unwind;
 
 /// A file by its path inside the job directory.
 pub type File = (String, Vec<u8>);
+
+/// The lines of sheets in a format, in the colours of these layers: files by their paths in
+/// a folder.
+pub fn drawings(
+    sheets: &[Sheet],
+    (folder, format): (&str, FileFormat),
+    layers: &[Layer; 5],
+) -> Vec<File> {
+    let each = |write: &dyn Fn(&Sheet) -> Vec<u8>| {
+        sheets
+            .iter()
+            .map(|sheet| (format.path(folder, &sheet.id), write(sheet)))
+            .collect()
+    };
+    match format {
+        FileFormat::Dxf => each(&dxf),
+        FileFormat::Svg => each(&|sheet| svg_in(sheet, layers)),
+        FileFormat::Pdf => vec![(format.path(folder, ""), pdf_in(sheets, layers))],
+        FileFormat::Png => Vec::new(),
+    }
+}
 
 /// All files of approved sheets: DXF, SVG and a picture of each, and one PDF of all.
 ///
@@ -43,13 +65,19 @@ pub fn cut_files(
 ) -> Result<Vec<File>, PngError> {
     let sheets = approved.get();
     let mut files = side_by_side(sheets, threads, |sheet| {
-        let path = |ending: &str| format!("sheets/{}.{ending}", sheet.id);
         let picture = png(sheet, &PngLook::default())?;
-        let drawings = [(path("dxf"), dxf(sheet)), (path("svg"), svg(sheet))];
-        Ok(drawings.into_iter().chain([(path("png"), picture)]).collect())
+        let picture = (FileFormat::Png.path(SHEETS, &sheet.id), picture);
+        Ok(drawn(std::slice::from_ref(sheet), false).chain([picture]).collect())
     })?;
-    files.push(("sheets/sheets.pdf".to_owned(), pdf(sheets)));
+    files.extend(drawn(sheets, true));
     Ok(files)
+}
+
+/// The sheets in all formats that hold all sheets in one file, or in all others.
+fn drawn(sheets: &[Sheet], in_one: bool) -> impl Iterator<Item = File> {
+    let formats = FileFormat::CUT.into_iter();
+    let formats = formats.filter(move |format| format.holds_all_sheets() == in_one);
+    formats.flat_map(move |format| drawings(sheets, (SHEETS, format), &LAYERS))
 }
 
 /// Pictures of sheets that were refused, stamped across.
@@ -60,7 +88,7 @@ pub fn stamped_previews(sheets: &[Sheet], threads: usize) -> Result<Vec<File>, P
     side_by_side(sheets, threads, |sheet| {
         let stamp = stamp(sheet, "NOT FOR CUTTING");
         let look = PngLook { stamp: &stamp, ..PngLook::default() };
-        Ok(vec![(format!("preview/{}.png", sheet.id), png(sheet, &look)?)])
+        Ok(vec![(FileFormat::Png.path(PREVIEW, &sheet.id), png(sheet, &look)?)])
     })
 }
 

@@ -2,14 +2,14 @@
 
 /// Colours from a low to a high value, evenly apart; red, green and blue to 255.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Scale(&'static [[f64; 3]]);
+pub struct ColourScale(&'static [[f64; 3]]);
 
 /// From pale over yellow to red: how much of what should be none.
-pub const HEAT: Scale =
-    Scale(&[[233.0, 240.0, 244.0], [250.0, 214.0, 92.0], [214.0, 38.0, 32.0]]);
+pub const HEAT: ColourScale =
+    ColourScale(&[[233.0, 240.0, 244.0], [250.0, 214.0, 92.0], [214.0, 38.0, 32.0]]);
 
 /// Blue over pale yellow to red (after ColorBrewer's RdYlBu, for the colour-blind too).
-pub const BLUE_TO_RED: Scale = Scale(&[
+pub const BLUE_TO_RED: ColourScale = ColourScale(&[
     [44.0, 123.0, 182.0],
     [171.0, 217.0, 233.0],
     [255.0, 255.0, 191.0],
@@ -29,7 +29,7 @@ pub const TINTS: [[u8; 3]; 8] = [
     [240, 232, 220],
 ];
 
-impl Scale {
+impl ColourScale {
     /// The colour of a share from 0 to 1; what is beyond has the colour of the end.
     pub fn at(&self, share: f64) -> [f64; 3] {
         let Self(stops) = self;

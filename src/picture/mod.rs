@@ -5,7 +5,7 @@ mod camera;
 mod colour;
 
 pub use camera::Camera;
-pub use colour::{BLUE_TO_RED, HEAT, Scale, TINTS};
+pub use colour::{BLUE_TO_RED, ColourScale, HEAT, TINTS};
 
 use tiny_skia::Pixmap;
 

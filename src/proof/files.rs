@@ -2,6 +2,7 @@
 
 use crate::drawing::{Drawing, DrawingError, KnownLayer, read_dxf, read_pdf, read_svg};
 use crate::export::LAYERS;
+use crate::files::{FileFormat, SHEETS};
 use crate::manifest::{Manifest, SheetEntry};
 use crate::proof::JobFiles;
 use crate::proof::finding::{ProofFinding, Spot};
@@ -10,7 +11,8 @@ use crate::proof::sheets::Files;
 type Reader = fn(&[u8], &[KnownLayer]) -> Result<Drawing, DrawingError>;
 
 /// Formats with a file for each sheet.
-const SINGLE: [(&str, Reader); 2] = [("dxf", read_dxf), ("svg", read_svg)];
+const SINGLE: [(FileFormat, Reader); 2] =
+    [(FileFormat::Dxf, read_dxf), (FileFormat::Svg, read_svg)];
 
 /// The drawings of all formats that the manifest names; what is missing or unreadable is
 /// noted.
@@ -22,6 +24,7 @@ pub(super) fn formats(
 ) -> Vec<Files> {
     let mut formats = Vec::new();
     for (format, reader) in SINGLE {
+        let format = format.name();
         let named = |sheet: &SheetEntry| sheet.files.get(format).cloned().flatten();
         if manifest.sheets.iter().all(|sheet| named(sheet).is_none()) {
             continue;
@@ -29,7 +32,7 @@ pub(super) fn formats(
         let sheets = manifest.sheets.iter().map(|sheet| {
             let named = named(sheet).unwrap_or_default();
             let inside = named.contains('/');
-            let path = if inside { named } else { format!("sheets/{named}") };
+            let path = if inside { named } else { format!("{SHEETS}/{named}") };
             let drawing = read(&path, files, reader, facts);
             (path, drawing)
         });
@@ -39,7 +42,7 @@ pub(super) fn formats(
         let mut pages = read(pdf, files, read_pdf, facts).unwrap_or_default().into_iter();
         let named = |sheet: &SheetEntry| format!("{pdf}, page of {}", sheet.id);
         let sheets = manifest.sheets.iter().map(|sheet| (named(sheet), pages.next()));
-        formats.push(Files { format: "pdf", sheets: sheets.collect() });
+        formats.push(Files { format: FileFormat::Pdf.name(), sheets: sheets.collect() });
     }
     formats
 }

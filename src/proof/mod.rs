@@ -32,6 +32,7 @@ pub use figures::{NodeFigure, PartFigure, SlitFigure};
 pub use finding::{ProofFinding, Spot};
 
 use crate::diagnostic::{Finding, Place, passes};
+use crate::files::{FileFormat, ORDER, PREVIEW, SHEETS};
 use crate::manifest::{self, Limits, Manifest, ProofEntry, Worst};
 use crate::structure::{AxisRule, Structure, read_json};
 use crate::tolerance::Tolerance;
@@ -128,11 +129,6 @@ pub struct ProofReport<'a> {
     parts: &'a [PartFigure],
 }
 
-/// Paths of the files that a proof reads, as far as a manifest names them.
-pub const ALWAYS_READ: [&str; 3] = ["job.json", "structure.json", PDF];
-
-const PDF: &str = "sheets/sheets.pdf";
-
 /// Proves the files of a job.
 ///
 /// # Errors
@@ -153,7 +149,8 @@ pub fn prove(files: &JobFiles) -> Result<Proof, ProofError> {
         }
         proof.files.insert(path.clone(), digest);
     }
-    let drawn = formats(&manifest, Some(PDF), files, &mut facts);
+    let pdf = FileFormat::Pdf.path(SHEETS, "");
+    let drawn = formats(&manifest, Some(&pdf), files, &mut facts);
     let mut told = Told { facts, known: BTreeSet::new() };
     let structure = structure.as_ref();
     let own = Group { manifest: &manifest, structure, name: "" };
@@ -236,9 +233,9 @@ fn key(fact: &ProofFinding) -> Key {
 }
 
 fn is_proved(path: &str) -> bool {
-    let drawing = [".dxf", ".svg", ".pdf"].iter().any(|end| path.ends_with(end));
-    path == "structure.json"
-        || (path.starts_with("sheets/") || path.starts_with("order/")) && drawing
+    let folder = path.split_once('/').map(|(folder, _)| folder);
+    let is_drawing = matches!(folder, Some(SHEETS | ORDER)) && FileFormat::is_cut(path);
+    path == "structure.json" || is_drawing
 }
 
 fn read_manifest(files: &JobFiles) -> Result<Manifest, ProofError> {
@@ -252,7 +249,7 @@ fn read_manifest(files: &JobFiles) -> Result<Manifest, ProofError> {
         return Err(bad(found));
     }
     let no_files = !files.keys().any(|path| path.ends_with(".dxf"));
-    if no_files && files.keys().any(|path| path.starts_with("preview/")) {
+    if no_files && files.keys().any(|path| path.split('/').next() == Some(PREVIEW)) {
         return Err(ProofError::Refused);
     }
     Ok(manifest)

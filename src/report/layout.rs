@@ -1,6 +1,8 @@
 //! `layout.json`: where parts lie, how full the sheets are and what is left over.
 
+use crate::files::{FileFormat, SHEETS};
 use crate::geometry::{Contour, Point2};
+use crate::manifest::{degrees, mm};
 use crate::nest::{
     self, Layout, NestError, NestedSheet, Remnant, Rotations, Shape, Stock,
 };
@@ -21,14 +23,6 @@ pub struct Nested {
     pub length: Option<f64>,
     /// Start of the random numbers.
     pub seed: u64,
-}
-
-fn mm(value: f64) -> f64 {
-    (value * 1e6).round() / 1e6 + 0.0
-}
-
-fn degrees(radians: f64) -> f64 {
-    (radians.to_degrees() * 1e7).round() / 1e7 + 0.0
 }
 
 /// The manifest of a layout. Shapes with one name are copies of one part.
@@ -104,7 +98,7 @@ impl Writer<'_> {
     fn sheet(&self, index: usize, nested: &NestedSheet) -> Value {
         let stock = &self.stock[nested.stock];
         let id = sheet_id(index);
-        let file = |ending: &str| format!("sheets/{id}.{ending}");
+        let file = |format: FileFormat| format.path(SHEETS, &id);
         let placements = nested.placements.iter().map(|p| {
             let mut placement = json!({
                 "part": self.shapes[p.shape].name,
@@ -123,7 +117,7 @@ impl Writer<'_> {
             "width": stock.width,
             "height": stock.height,
             "margin": stock.margin,
-            "files": {"dxf": file("dxf"), "svg": file("svg"), "png": file("png"), "free": free_file(&id)},
+            "files": {"dxf": file(FileFormat::Dxf), "svg": file(FileFormat::Svg), "png": file(FileFormat::Png), "free": free_file(&id)},
             "cost": stock.cost,
             "utilisation": mm(self.used(nested) / stock.area()),
             "offcut": stock.remnant.is_none().then(|| self.offcut(nested)),

@@ -1,6 +1,7 @@
 //! The manifest of a job, made from what the stages left.
 
 use crate::fabrication::Fabrication;
+use crate::files::{FileFormat, SHEETS};
 use crate::geometry::{Contour, Point2};
 use crate::joint::Joint;
 use crate::manifest::{
@@ -15,7 +16,7 @@ use crate::report::connectors;
 use crate::sheets::{Operation, Path, Sheet};
 use crate::template::Template;
 use crate::tolerance::ARC_SAGITTA_MM;
-use crate::vendor::{Format, VendorSheets};
+use crate::vendor::VendorSheets;
 use std::collections::BTreeMap;
 
 /// Where a job came from.
@@ -167,19 +168,25 @@ fn sheets(job: &Fabrication) -> Vec<SheetEntry> {
         let area =
             |placement: &crate::nest::Placement| job.parts[placement.shape].region.area();
         let used: f64 = nested.placements.iter().map(area).sum();
-        let file = |ending: &str| {
-            (ending.to_owned(), Some(format!("sheets/{}.{ending}", sheet.id)))
-        };
+        let formats = [FileFormat::Dxf, FileFormat::Svg, FileFormat::Png];
         SheetEntry {
             id: sheet.id.clone(),
             width: sheet.width,
             height: sheet.height,
-            files: ["dxf", "svg", "png"].map(file).into(),
+            files: paths(&formats, |format| Some(format.path(SHEETS, &sheet.id))),
             utilisation: Some(mm(used / (sheet.width * sheet.height))),
             placements: placements(job, nested, &mut copies),
         }
     };
     pairs.map(entry).collect()
+}
+
+/// Paths of a sheet's files by format.
+fn paths(
+    formats: &[FileFormat],
+    path: impl Fn(FileFormat) -> Option<String>,
+) -> BTreeMap<String, Option<String>> {
+    formats.iter().map(|&format| (format.name().to_owned(), path(format))).collect()
 }
 
 /// How many copies of each part have been met.
@@ -212,16 +219,14 @@ fn for_vendor(job: &Fabrication, vendor: &VendorSheets) -> VendorEntry {
         id: sheet.id.clone(),
         width: sheet.width,
         height: sheet.height,
-        files: [("dxf", Format::Dxf), ("svg", Format::Svg)]
-            .map(|(name, format)| (name.to_owned(), vendor.path(sheet, format)))
-            .into(),
+        files: paths(&[FileFormat::Dxf, FileFormat::Svg], |f| vendor.path(&sheet.id, f)),
         utilisation: None,
         placements: placements(job, nested, &mut copies),
     });
     VendorEntry {
         profile: vendor.profile.name.to_owned(),
         kerf: vendor.kerf_mm,
-        pdf: vendor.pdf_path(),
+        pdf: vendor.path("", FileFormat::Pdf),
         sheets: sheets.collect(),
     }
 }

@@ -7,9 +7,10 @@ mod finding;
 mod profile;
 
 pub use finding::VendorFinding;
-pub use profile::{Format, PROFILES, Profile};
+pub use profile::{PROFILES, Profile};
 
 use crate::export::{self, File};
+use crate::files::{FileFormat, ORDER};
 use crate::gate::Approved;
 use crate::geometry::Point2;
 use crate::nest::{Layout, NestedSheet, Placement, Stock};
@@ -100,25 +101,10 @@ fn each_alone(parts: &[Part], kerf: Kerf) -> (Layout, Vec<Stock>) {
     (Layout { sheets }, stock)
 }
 
-/// The folder of a vendor's files inside a job.
-pub const FOLDER: &str = "order";
-
 impl VendorSheets {
-    /// Path of a sheet's file, if the service takes that kind.
-    pub fn path(&self, sheet: &Sheet, format: Format) -> Option<String> {
-        let ending = match format {
-            Format::Dxf => "dxf",
-            Format::Svg => "svg",
-            Format::Pdf => return None,
-        };
-        let taken = self.profile.formats.contains(&format);
-        taken.then(|| format!("{FOLDER}/{}.{ending}", sheet.id))
-    }
-
-    /// Path of the PDF of all sheets, if the service takes one.
-    pub fn pdf_path(&self) -> Option<String> {
-        let taken = self.profile.formats.contains(&Format::Pdf);
-        taken.then(|| format!("{FOLDER}/sheets.pdf"))
+    /// Path of a sheet's file, or of that of all, if the service takes the format.
+    pub fn path(&self, sheet: &str, format: FileFormat) -> Option<String> {
+        self.profile.formats.contains(&format).then(|| format.path(ORDER, sheet))
     }
 }
 
@@ -126,17 +112,10 @@ impl VendorSheets {
 pub fn files(approved: &Approved<&VendorSheets>) -> Vec<File> {
     let vendor = approved.get();
     let layers = vendor.profile.layers();
-    let mut files = Vec::new();
-    for sheet in &vendor.sheets {
-        let dxf = vendor.path(sheet, Format::Dxf).map(|path| (path, export::dxf(sheet)));
-        let svg = vendor.path(sheet, Format::Svg);
-        let svg = svg.map(|path| (path, export::svg_in(sheet, &layers)));
-        files.extend(dxf.into_iter().chain(svg));
-    }
-    let pdf =
-        vendor.pdf_path().map(|path| (path, export::pdf_in(&vendor.sheets, &layers)));
-    files.extend(pdf);
-    files
+    let taken = FileFormat::CUT.iter().filter(|f| vendor.profile.formats.contains(f));
+    taken
+        .flat_map(|&format| export::drawings(&vendor.sheets, (ORDER, format), &layers))
+        .collect()
 }
 
 /// The rules of the service that the sheets do not keep.

@@ -2,17 +2,7 @@
 //! where).
 
 use crate::export::{LAYERS, Layer};
-
-/// A kind of file.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Format {
-    /// DXF R12.
-    Dxf,
-    /// SVG.
-    Svg,
-    /// PDF, a page per sheet.
-    Pdf,
-}
+use crate::files::FileFormat;
 
 /// What a service or a machine takes.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -22,7 +12,7 @@ pub struct Profile {
     /// Colours of engraving, scores, inner and outer cuts in SVG and PDF.
     pub colours: [[u8; 3]; 4],
     /// The kinds of files it takes.
-    pub formats: &'static [Format],
+    pub formats: &'static [FileFormat],
     /// Whether it wants each part in a file of its own.
     pub per_part: bool,
     /// Whether engraving and scores may be in the files.
@@ -47,7 +37,7 @@ const BURNS_MM: f64 = 0.5;
 const GENERIC: Profile = Profile {
     name: "generic",
     colours: [CYAN, GREEN, BLUE, RED],
-    formats: &[Format::Dxf, Format::Svg, Format::Pdf],
+    formats: &[FileFormat::Dxf, FileFormat::Svg, FileFormat::Pdf],
     per_part: false,
     marks: true,
     kerf: true,
@@ -62,26 +52,26 @@ pub const PROFILES: [Profile; 6] = [
     Profile {
         name: "lightburn",
         colours: [[0, 224, 224], [0, 224, 0], BLUE, RED],
-        formats: &[Format::Svg],
+        formats: &[FileFormat::Svg],
         ..GENERIC
     },
     Profile {
         name: "rgb-lab",
         colours: [BLACK, GREEN, BLUE, RED],
-        formats: &[Format::Pdf, Format::Svg],
+        formats: &[FileFormat::Pdf, FileFormat::Svg],
         ..GENERIC
     },
     Profile {
         name: "snijlab",
-        formats: &[Format::Dxf],
+        formats: &[FileFormat::Dxf],
         largest_mm: Some([1200.0, 600.0]),
         ..GENERIC
     },
     // Drivers of Epilog and Universal take pure primaries for vectors.
-    Profile { name: "epilog", formats: &[Format::Pdf], ..GENERIC },
+    Profile { name: "epilog", formats: &[FileFormat::Pdf], ..GENERIC },
     Profile {
         name: "single-part",
-        formats: &[Format::Dxf],
+        formats: &[FileFormat::Dxf],
         per_part: true,
         marks: false,
         kerf: false,

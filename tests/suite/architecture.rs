@@ -11,6 +11,7 @@ const ORDER: &[&str] = &[
     "watch",
     "diagnostic",
     "json",
+    "files",
     "geometry",
     "picture",
     "sparse",
@@ -174,7 +175,7 @@ fn only_sheets_know_how_far_the_kerf_moves_a_line() {
 /// What docs/proof.md says that the proof shares with the makers, and no more.
 #[test]
 fn the_proof_shares_only_what_its_page_lists() {
-    let shared = "diagnostic json geometry lettering structure drawing manifest parts export \
+    let shared = "diagnostic json files geometry lettering structure drawing manifest parts export \
                   sheets proof tolerance units ids";
     let shared: Vec<&str> = shared.split_whitespace().collect();
     let mut offences = Vec::new();

@@ -1,6 +1,6 @@
 //! `assembly.pdf`: the steps of assembly on paper, one figure each, parts named as engraved.
 
-mod leaf;
+mod page;
 
 use crate::fabrication::Fabrication;
 use crate::geometry::{Point2, Vector2};
@@ -9,7 +9,7 @@ use crate::report::fins;
 use crate::report::manifest::Source;
 use crate::report::picture::Picture;
 use crate::report::steps::{Step, standing, steps};
-use leaf::{BOLD, FONTS, Leaf, MARGIN, PLAIN, POINTS_PER_MM, SIZE, Set, lines};
+use page::{BOLD, FONTS, GuidePage, MARGIN, PLAIN, POINTS_PER_MM, SIZE, Set, lines};
 use pdf_writer::{Finish, Name, Pdf, Rect, Ref};
 
 /// Figures beside and below each other on a page.
@@ -41,19 +41,19 @@ pub fn guide(job: &Fabrication, source: &Source) -> Option<Vec<u8>> {
     let height = room.y - f64::from(LINES as u32 + 1) * PLAIN.size * LEADING;
     let width = room.x * (height / picture.size[1]).min(1.0);
     let picture = Picture::new(job, structure, width);
-    let mut leaves = vec![title(job, source, steps.len())];
+    let mut pages = vec![title(job, source, steps.len())];
     let numbered: Vec<(usize, &Step)> = steps.iter().enumerate().collect();
-    for page in numbered.chunks(GRID[0] * GRID[1]) {
-        let mut leaf = Leaf::new();
-        for (place, (k, step)) in page.iter().enumerate() {
+    for chunk in numbered.chunks(GRID[0] * GRID[1]) {
+        let mut page = GuidePage::new();
+        for (place, (k, step)) in chunk.iter().enumerate() {
             let standing = standing(job, &steps, *k);
             let figure = Figure { job, picture: &picture, standing: &standing };
-            figure.draw(&mut leaf, corner(place), (*k, step));
+            figure.draw(&mut page, corner(place), (*k, step));
         }
-        leaves.push(leaf);
+        pages.push(page);
     }
-    leaves.extend(list(job, &steps));
-    Some(bound(leaves))
+    pages.extend(list(job, &steps));
+    Some(bound(pages))
 }
 
 /// Size of a figure's place.
@@ -77,29 +77,29 @@ struct Figure<'a> {
 }
 
 impl Figure<'_> {
-    fn draw(&self, leaf: &mut Leaf, at: Point2, (k, step): (usize, &Step)) {
+    fn draw(&self, page: &mut GuidePage, at: Point2, (k, step): (usize, &Step)) {
         let ids = step.parts.iter().map(|&part| self.job.parts[part].id.as_str());
         let head = format!("{}   {}", k + 1, ids.collect::<Vec<_>>().join(" "));
-        leaf.text(at - Vector2::new(0.0, BOLD.size), BOLD, &head);
+        page.text(at - Vector2::new(0.0, BOLD.size), BOLD, &head);
         let down = 1.6 * BOLD.size + self.picture.size[1];
         let origin = at.coords - Vector2::new(0.0, down);
         let panels = || self.picture.panels.iter();
         let place = |corners: &[Point2; 4]| corners.map(|p| p + origin);
         for panel in panels() {
             if step.parts.contains(&panel.part) {
-                leaf.shape(&place(&panel.corners), NEW);
+                page.shape(&place(&panel.corners), NEW);
             } else if self.standing.contains(&panel.part) {
-                leaf.shape(&place(&panel.corners), STANDING);
+                page.shape(&place(&panel.corners), STANDING);
             }
         }
         // What stands in front hides it: its edges show through.
         for panel in panels().filter(|panel| step.parts.contains(&panel.part)) {
-            leaf.edge(&place(&panel.corners), NEW_EDGE);
+            page.edge(&place(&panel.corners), NEW_EDGE);
         }
         let mut line = Point2::from(origin);
         for text in self.words(step) {
             line.y -= PLAIN.size * LEADING;
-            leaf.text(line, PLAIN, &text);
+            page.text(line, PLAIN, &text);
         }
     }
 
@@ -148,14 +148,14 @@ const NO_STRESS: &str = "Put nothing under stress that was cleaned with alcohol 
     acrylic crazes. Work on a flat board, and dry-fit before you glue.";
 
 /// What it is and how to read it.
-fn title(job: &Fabrication, source: &Source, steps: usize) -> Leaf {
-    let mut leaf = Leaf::new();
+fn title(job: &Fabrication, source: &Source, steps: usize) -> GuidePage {
+    let mut page = GuidePage::new();
     let name = job.structure.as_ref().map_or("", |structure| structure.name());
     let size = job.structure.as_ref().map(|s| s.size_text()).unwrap_or_default();
     let material = &source.template.material;
     let head = Set { size: 9.0, bold: true };
     let mut at = Point2::new(MARGIN, SIZE[1] - MARGIN - head.size);
-    leaf.text(at, head, name);
+    page.text(at, head, name);
     let facts = [
         format!("{size}, scale {}", source.scale),
         format!(
@@ -183,27 +183,27 @@ fn title(job: &Fabrication, source: &Source, steps: usize) -> Leaf {
         at.y -= PLAIN.size * 0.7;
         for line in lines(&text, PLAIN, SIZE[0] - 2.0 * MARGIN) {
             at.y -= PLAIN.size * LEADING;
-            leaf.text(at, PLAIN, &line);
+            page.text(at, PLAIN, &line);
         }
     }
-    whole(job, &mut leaf);
-    leaf
+    whole(job, &mut page);
+    page
 }
 
 /// The finished structure at the foot of the title.
-fn whole(job: &Fabrication, leaf: &mut Leaf) {
+fn whole(job: &Fabrication, page: &mut GuidePage) {
     let Some(structure) = &job.structure else { return };
     let room = Vector2::new(SIZE[0] - 2.0 * MARGIN, SIZE[1] / 2.0);
     let [width, height] = Picture::new(job, structure, room.x).size;
     let picture = Picture::new(job, structure, width * (room.y / height).min(1.0));
     for panel in &picture.panels {
         let corners = panel.corners.map(|p| p + Vector2::new(MARGIN, MARGIN));
-        leaf.shape(&corners, STANDING);
+        page.shape(&corners, STANDING);
     }
 }
 
 /// The parts with their sizes and sheets.
-fn list(job: &Fabrication, steps: &[Step]) -> Vec<Leaf> {
+fn list(job: &Fabrication, steps: &[Step]) -> Vec<GuidePage> {
     const COLUMNS: [f64; 5] = [0.0, 20.0, 50.0, 80.0, 105.0];
     let sheets = fins::sheets(job);
     let rows = job.parts.iter().enumerate().map(|(index, part)| {
@@ -219,37 +219,37 @@ fn list(job: &Fabrication, steps: &[Step]) -> Vec<Leaf> {
     let step = PLAIN.size * LEADING;
     let room = ((SIZE[1] - 2.0 * MARGIN) / step) as usize - 2;
     let pages = rows.chunks(room).map(|rows| {
-        let mut leaf = Leaf::new();
+        let mut page = GuidePage::new();
         let mut y = SIZE[1] - MARGIN - BOLD.size;
         for (k, row) in std::iter::once(&heads).chain(rows).enumerate() {
             let set = if k == 0 { BOLD } else { PLAIN };
             for (cell, x) in row.iter().zip(COLUMNS) {
-                leaf.text(Point2::new(MARGIN + x, y), set, cell);
+                page.text(Point2::new(MARGIN + x, y), set, cell);
             }
             y -= step;
         }
-        leaf
+        page
     });
     pages.collect()
 }
 
 /// Pages as a PDF.
-fn bound(leaves: Vec<Leaf>) -> Vec<u8> {
-    let [catalog, pages] = [1, 2].map(Ref::new);
+fn bound(pages: Vec<GuidePage>) -> Vec<u8> {
+    let [catalog, tree] = [1, 2].map(Ref::new);
     let fonts = [3, 4].map(Ref::new);
     let mut pdf = Pdf::new();
-    pdf.catalog(catalog).pages(pages);
-    let ids = (5..).step_by(2).map(Ref::new).take(leaves.len());
-    pdf.pages(pages).kids(ids.clone()).count(leaves.len() as i32);
+    pdf.catalog(catalog).pages(tree);
+    let ids = (5..).step_by(2).map(Ref::new).take(pages.len());
+    pdf.pages(tree).kids(ids.clone()).count(pages.len() as i32);
     for (id, (_, name)) in fonts.into_iter().zip(FONTS) {
         let mut font = pdf.type1_font(id);
         font.base_font(Name(name)).encoding_predefined(Name(b"WinAnsiEncoding"));
     }
     let [width, height] = SIZE.map(|mm| (mm * POINTS_PER_MM) as f32);
-    for (leaf, id) in leaves.into_iter().zip(ids) {
+    for (written, id) in pages.into_iter().zip(ids) {
         let contents = Ref::new(id.get() + 1);
         let mut page = pdf.page(id);
-        page.parent(pages).contents(contents);
+        page.parent(tree).contents(contents);
         page.media_box(Rect::new(0.0, 0.0, width, height));
         let mut resources = page.resources();
         let mut names = resources.fonts();
@@ -259,7 +259,7 @@ fn bound(leaves: Vec<Leaf>) -> Vec<u8> {
         names.finish();
         resources.finish();
         page.finish();
-        pdf.stream(contents, &leaf.bytes());
+        pdf.stream(contents, &written.bytes());
     }
     pdf.finish()
 }

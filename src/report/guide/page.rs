@@ -29,11 +29,11 @@ pub(super) const PLAIN: Set = Set { size: 3.4, bold: false };
 pub(super) const BOLD: Set = Set { size: 3.6, bold: true };
 
 /// A page that is being written.
-pub(super) struct Leaf {
+pub(super) struct GuidePage {
     content: Content,
 }
 
-impl Leaf {
+impl GuidePage {
     pub(super) fn new() -> Self {
         let mut content = Content::new();
         let scale = POINTS_PER_MM as f32;
