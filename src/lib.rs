@@ -35,6 +35,7 @@
 //! assert!(job.files.iter().any(|(path, _)| path == "report.html"));
 //! ```
 
+#[cfg(feature = "cli")]
 pub mod cli;
 pub mod design;
 pub mod diagnostic;
