@@ -4,6 +4,7 @@
 //! `thiserror` writes the message, `miette` carries code, severity and help, and
 //! [`Located`] the place. [`Finding`] is their common, serialisable form.
 
+use crate::ids::{FaceId, NodeId, StripId};
 use miette::Diagnostic;
 use serde::{Deserialize, Serialize};
 
@@ -20,7 +21,7 @@ pub enum Severity {
     Error,
 }
 
-/// Where something was found; empty fields do not apply.
+/// Where something was found, in the bare numbers of files; empty fields do not apply.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(default)]
@@ -53,23 +54,27 @@ pub struct Place {
 
 impl Place {
     /// At these nodes.
-    pub fn nodes(nodes: impl Into<Vec<usize>>) -> Self {
-        Self { nodes: nodes.into(), ..Self::default() }
+    pub fn nodes(nodes: impl IntoIterator<Item: Into<NodeId>>) -> Self {
+        let nodes = nodes.into_iter().map(|node| node.into().index()).collect();
+        Self { nodes, ..Self::default() }
     }
 
     /// In these fins.
-    pub fn fins(fins: impl Into<Vec<[usize; 2]>>) -> Self {
-        Self { fins: fins.into(), ..Self::default() }
+    pub fn fins<N: Into<NodeId>>(fins: impl IntoIterator<Item = [N; 2]>) -> Self {
+        let bare = |node: N| node.into().index();
+        let fins = fins.into_iter().map(|fin| fin.map(bare)).collect();
+        Self { fins, ..Self::default() }
     }
 
     /// In these faces.
-    pub fn faces(faces: impl Into<Vec<usize>>) -> Self {
-        Self { faces: faces.into(), ..Self::default() }
+    pub fn faces(faces: impl IntoIterator<Item = FaceId>) -> Self {
+        let faces = faces.into_iter().map(FaceId::index).collect();
+        Self { faces, ..Self::default() }
     }
 
     /// In this strip.
-    pub fn strip(strip: usize) -> Self {
-        Self { strips: vec![strip], ..Self::default() }
+    pub fn strip(strip: StripId) -> Self {
+        Self { strips: vec![strip.index()], ..Self::default() }
     }
 
     /// In this part.
@@ -85,8 +90,8 @@ impl Place {
 
     /// The same place, narrowed to a node.
     #[must_use]
-    pub fn at(mut self, node: usize) -> Self {
-        self.nodes.push(node);
+    pub fn at(mut self, node: impl Into<NodeId>) -> Self {
+        self.nodes.push(node.into().index());
         self
     }
 }

@@ -5,14 +5,14 @@
 //! [`NodeId`]. In files each is written as the bare number.
 
 use serde::{Deserialize, Serialize};
-use std::fmt::{Display, Formatter};
+use std::fmt::{Debug, Display, Formatter};
 use std::ops::{Index, IndexMut};
 
 /// Makes a type whose values name things of one kind, counted from 0.
 macro_rules! id {
     ($(#[$doc:meta])* $name:ident) => {
         $(#[$doc])*
-        #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+        #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
         #[derive(Serialize, Deserialize)]
         #[serde(transparent)]
         pub struct $name(usize);
@@ -38,6 +38,12 @@ macro_rules! id {
         impl Display for $name {
             fn fmt(&self, f: &mut Formatter<'_>) -> std::fmt::Result {
                 Display::fmt(&self.0, f)
+            }
+        }
+
+        impl Debug for $name {
+            fn fmt(&self, f: &mut Formatter<'_>) -> std::fmt::Result {
+                Debug::fmt(&self.0, f)
             }
         }
 
@@ -89,4 +95,44 @@ id! {
 id! {
     /// A side of a face of a mesh, in the direction of the face.
     HalfEdge
+}
+
+id! {
+    /// A strip of a structure.
+    StripId
+}
+
+/// A fin, by the two nodes between which it stands, the smaller number first. At most one
+/// fin stands between two nodes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize)]
+#[serde(transparent)]
+pub struct FinId([NodeId; 2]);
+
+impl FinId {
+    /// The fin between two nodes, in whatever order.
+    pub fn between(a: NodeId, b: NodeId) -> Self {
+        Self([a.min(b), a.max(b)])
+    }
+
+    /// Its nodes, the smaller number first.
+    pub const fn ends(self) -> [NodeId; 2] {
+        self.0
+    }
+
+    /// Whether a node is one of its ends.
+    pub fn ends_at(self, node: NodeId) -> bool {
+        self.0.contains(&node)
+    }
+}
+
+impl Display for FinId {
+    fn fmt(&self, f: &mut Formatter<'_>) -> std::fmt::Result {
+        write!(f, "{}-{}", self.0[0], self.0[1])
+    }
+}
+
+impl From<[NodeId; 2]> for FinId {
+    fn from([a, b]: [NodeId; 2]) -> Self {
+        Self::between(a, b)
+    }
 }

@@ -1,5 +1,6 @@
 //! What a job is made with: the inner form of a template, made once and passed to all stages.
 
+use crate::ids::NodeId;
 use crate::joint::Joint;
 use crate::nest::{Effort, Rotations, Stock};
 use crate::parts::{Fit, FoldMarks, Marking};
@@ -17,7 +18,7 @@ pub struct Settings {
     /// How fins are joined.
     pub joint: Joint,
     /// Nodes that get hubs whatever meets there, ascending.
-    pub hub_nodes: Vec<usize>,
+    pub hub_nodes: Vec<NodeId>,
     /// How hard to nest.
     pub effort: Effort,
     /// Why the structure may be flexible.
@@ -56,13 +57,13 @@ impl Settings {
 
     /// With hubs on more nodes.
     #[must_use]
-    pub fn with_hubs(self, nodes: &[usize]) -> Self {
-        let hub_nodes = ascending([&self.hub_nodes, nodes].concat());
-        Self { hub_nodes, ..self }
+    pub fn with_hubs(mut self, nodes: impl IntoIterator<Item: Into<NodeId>>) -> Self {
+        self.hub_nodes.extend(nodes.into_iter().map(Into::into));
+        Self { hub_nodes: ascending(self.hub_nodes), ..self }
     }
 
     /// Whether single fins meet in a hub at a node; else they hang on a rod.
-    pub fn has_hub(&self, node: usize) -> bool {
+    pub fn has_hub(&self, node: NodeId) -> bool {
         self.joint == Joint::Hub || self.hub_nodes.contains(&node)
     }
 
@@ -87,7 +88,7 @@ impl Settings {
     }
 }
 
-fn ascending(mut nodes: Vec<usize>) -> Vec<usize> {
+fn ascending(mut nodes: Vec<NodeId>) -> Vec<NodeId> {
     nodes.sort_unstable();
     nodes.dedup();
     nodes

@@ -96,7 +96,8 @@ pub(super) fn settings(args: &InputArgs) -> Result<Settings, InputError> {
         EffortLevel::Normal => 8,
         EffortLevel::Thorough => 64,
     };
-    let settings = Settings::new(template(&args.template)?).with_hubs(&args.hubs);
+    let settings =
+        Settings::new(template(&args.template)?).with_hubs(args.hubs.iter().copied());
     let effort = Effort { trials, seed: args.seed };
     Ok(Settings { joint: args.joint, effort, ..settings })
 }

@@ -26,7 +26,8 @@ struct NoConnector {
 pub(super) fn draw(args: &PictureArgs, job: &Fabrication) -> Result<(), Failure> {
     let (Some(node), Some(path)) = (args.node, &args.picture) else { return Ok(()) };
     let thickness = job.settings.fit.thickness;
-    let picture = report::node_picture(job, node, thickness).map_err(Failure::of)?;
+    let picture =
+        report::node_picture(job, node.into(), thickness).map_err(Failure::of)?;
     let bytes = picture.ok_or_else(|| Failure::of(NoConnector { node }))?;
     let disk = |source| JobDirError::Disk { path: path.to_owned(), source };
     Ok(std::fs::write(path, bytes).map_err(disk)?)

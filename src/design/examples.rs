@@ -233,7 +233,7 @@ mod tests {
                 Structure::new((example.draft)(), &Tolerance::default()).unwrap();
             assert!(findings.is_empty(), "{}: {findings:?}", example.name);
             for &fin in structure.fins() {
-                let (off, diameter) = planarity(&structure.corners(fin));
+                let (off, diameter) = planarity(&structure.corners(fin.ends()));
                 assert!(off <= 1e-9 * diameter, "{} {fin:?} {off}", example.name);
             }
         }

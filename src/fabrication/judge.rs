@@ -1,6 +1,7 @@
 //! Asking whether what will be built is rigid.
 
 use crate::diagnostic::{Finding, Severity};
+use crate::ids::NodeId;
 use crate::joint::Joint;
 use crate::parts;
 use crate::rigidity::{
@@ -59,12 +60,12 @@ pub fn with_remedies(
         let remedies = rigidity::remedies(&model, &criteria, MOST_STEPS, watch)?;
         let welds = remedies.iter().filter(|remedy| matches!(remedy.cure, Cure::Weld(_)));
         let known = &settings.hub_nodes;
-        let new: BTreeSet<usize> =
+        let new: BTreeSet<NodeId> =
             welds.map(|weld| weld.node).filter(|node| !known.contains(node)).collect();
         if new.is_empty() {
             break;
         }
-        settings = settings.with_hubs(&new.into_iter().collect::<Vec<_>>());
+        settings = settings.with_hubs(new);
     }
     Ok(settings)
 }
@@ -78,9 +79,7 @@ pub fn criteria(
     structure: &Structure,
     template: &Template,
 ) -> Result<Criteria, RigidityFinding> {
-    let lengths = structure.fins().iter().map(|&[i, j]| {
-        (structure.nodes()[i].position - structure.nodes()[j].position).norm()
-    });
+    let lengths = structure.fins().iter().map(|&fin| structure.length(fin));
     let mean = lengths.sum::<f64>() / structure.fins().len().max(1) as f64;
     let play = template.gate.play_mm.unwrap_or(template.material.clearance_mm / 2.0);
     Ok(Criteria {

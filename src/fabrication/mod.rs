@@ -7,6 +7,7 @@ pub use judge::{criteria, model, verdict, with_remedies};
 use crate::diagnostic::Finding;
 use crate::gate::{self, Approved, Judged, Shut};
 use crate::geometry::{Contour, Point2};
+use crate::ids::NodeId;
 use crate::joint::Joint;
 use crate::nest::{self, Layout, NestError, Shape};
 use crate::parts::{self, Body, ConnectorFinding, Making, Part, Step};
@@ -91,9 +92,9 @@ pub fn coupon(settings: Settings, watch: &mut dyn Watch) -> Result<Fabrication, 
 }
 
 /// A node that should get a hub and is not there.
-fn no_such_hub(structure: &Structure, hub_nodes: &[usize]) -> Option<ConnectorFinding> {
+fn no_such_hub(structure: &Structure, hub_nodes: &[NodeId]) -> Option<ConnectorFinding> {
     let count = structure.nodes().len();
-    let node = hub_nodes.iter().copied().find(|&node| node >= count)?;
+    let node = hub_nodes.iter().copied().find(|node| node.index() >= count)?;
     Some(ConnectorFinding::NoSuchNode { node, count })
 }
 

@@ -1,6 +1,7 @@
 //! Whether connectors have room: between fins, along fins, along the axis, on the sheet.
 
 use crate::geometry::Point2;
+use crate::ids::NodeId;
 use crate::parts::Making;
 use crate::parts::connector::{Connector, Holding};
 use crate::parts::finding::ConnectorFinding;
@@ -40,14 +41,11 @@ pub(crate) fn findings(holding: &Holding) -> Vec<ConnectorFinding> {
 pub(crate) fn hub_lacks(
     structure: &Structure,
     hub: &Hub,
-    taken: &dyn Fn(usize) -> f64,
+    taken: &dyn Fn(NodeId) -> f64,
     fit: &Fit,
 ) -> Option<ConnectorFinding> {
-    let nodes = |fin: usize| structure.fins()[fin];
-    let name = |fin: usize| {
-        let [i, j] = nodes(fin);
-        format!("fin {i}-{j}")
-    };
+    let nodes = |fin: usize| structure.fins()[fin].ends();
+    let name = |fin: usize| format!("fin {}", structure.fins()[fin]);
     let touching = |spoke: &Spoke| {
         let room = Room {
             part: name(spoke.fin),
@@ -140,7 +138,7 @@ fn large(making: &Making, hub: &Hub) -> Option<ConnectorFinding> {
 /// What connectors leave of one fin.
 struct Room {
     part: String,
-    nodes: [usize; 2],
+    nodes: [NodeId; 2],
     length: f64,
     /// What they take with their plates, and what the fin is cut back by.
     taken: f64,
@@ -150,10 +148,10 @@ struct Room {
 impl Room {
     /// `None` for a fin that no connector holds.
     fn new(holding: &Holding, fin: usize) -> Option<Self> {
-        let nodes = holding.structure.fins()[fin];
+        let nodes = holding.structure.fins()[fin].ends();
         let held = || nodes.iter().filter_map(|&node| holding.connectors[node].as_ref());
         held().next()?;
-        let slit = |at: [usize; 2]| holding.slits.get(&at).copied().unwrap_or_default();
+        let slit = |at: [NodeId; 2]| holding.slits.get(&at).copied().unwrap_or_default();
         let slits = slit(nodes) + slit([nodes[1], nodes[0]]);
         Some(Self {
             part: holding.names[fin].clone(),

@@ -8,6 +8,7 @@
 
 use crate::diagnostic::{Finding, passes};
 use crate::geometry::{Contour, Region};
+use crate::ids::{FinId, NodeId};
 use crate::parts::assembly::built::collisions;
 use crate::parts::assembly::copy::copies;
 use crate::parts::clearance;
@@ -81,7 +82,7 @@ impl Connector {
 /// hinges on all others.
 pub fn connected(
     structure: &Structure,
-    is_hub: &dyn Fn(usize) -> bool,
+    is_hub: &dyn Fn(NodeId) -> bool,
     making: &Making,
 ) -> Made {
     let fins = structure.fins();
@@ -104,16 +105,16 @@ pub(crate) fn discs(plan: &Plan, parts: &mut Vec<Part>, making: &Making) -> Vec<
         return Vec::new();
     }
     let structure = &plan.structure;
-    let mut part_of: BTreeMap<[usize; 2], &str> = BTreeMap::new();
+    let mut part_of: BTreeMap<FinId, &str> = BTreeMap::new();
     for part in parts.iter() {
         let nodes = part.body.nodes();
-        let fins = nodes.windows(2).map(|w| [w[0].min(w[1]), w[0].max(w[1])]);
+        let fins = nodes.windows(2).map(|w| FinId::between(w[0], w[1]));
         part_of.extend(fins.map(|fin| (fin, part.id.as_str())));
     }
     let names = structure.fins().iter().map(|fin| part_of.get(fin).copied());
     let names = names.map(|name| name.unwrap_or_default().to_owned()).collect();
-    let hub = |node: usize| plan.hubs.get(&node).cloned().map(Connector::Hub);
-    let connectors = (0..structure.nodes().len()).map(hub).collect();
+    let hub = |node: NodeId| plan.hubs.get(&node).cloned().map(Connector::Hub);
+    let connectors = structure.mesh().nodes().map(hub).collect();
     let slits = plan.slits();
     Holding { structure, making, connectors, names, slits }.plates(parts, Vec::new())
 }
@@ -127,7 +128,7 @@ pub(crate) struct Holding<'a> {
     /// The part of each fin.
     pub names: Vec<String>,
     /// What slits take of a fin at its first node, mm.
-    pub slits: BTreeMap<[usize; 2], f64>,
+    pub slits: BTreeMap<[NodeId; 2], f64>,
 }
 
 impl Holding<'_> {
@@ -161,12 +162,12 @@ impl Holding<'_> {
 /// What holds the fins of each node, if it joins any.
 fn connectors(
     structure: &Structure,
-    is_hub: &dyn Fn(usize) -> bool,
+    is_hub: &dyn Fn(NodeId) -> bool,
     fit: &Fit,
 ) -> Vec<Option<Connector>> {
     let fins = structure.fins().iter().enumerate();
-    let index: BTreeMap<[usize; 2], usize> = fins.map(|(k, fin)| (*fin, k)).collect();
-    let connector = |node: usize| {
+    let index: BTreeMap<FinId, usize> = fins.map(|(k, fin)| (*fin, k)).collect();
+    let connector = |node: NodeId| {
         let around = Around::new(structure, &index, node, fit)?;
         Some(if is_hub(node) {
             Connector::Hub(Hub::new(around, fit))
@@ -174,16 +175,16 @@ fn connectors(
             Connector::Hinge(Hinge::new(around, fit))
         })
     };
-    (0..structure.nodes().len()).map(connector).collect()
+    structure.mesh().nodes().map(connector).collect()
 }
 
 /// How far from the axis each hub holds its fins against turning, by node, mm: a plate with
 /// play in a window turns as if a pin at the window's length held it.
 pub fn levers(
     structure: &Structure,
-    is_hub: &dyn Fn(usize) -> bool,
+    is_hub: &dyn Fn(NodeId) -> bool,
     fit: &Fit,
-) -> BTreeMap<usize, f64> {
+) -> BTreeMap<NodeId, f64> {
     let connectors = connectors(structure, is_hub, fit).into_iter().flatten();
     let lever = |connector| match connector {
         Connector::Hub(hub) => Some((hub.around.node, hub.slot)),
@@ -207,8 +208,9 @@ fn fin_parts(
 ) -> (Vec<Part>, Vec<(String, usize)>) {
     let mut shapes = Shapes::default();
     let fins = structure.fins().iter().enumerate();
-    let parts = fins.map(|(fin, nodes)| {
-        let flat = unfold(structure, nodes, false);
+    let parts = fins.map(|(fin, id)| {
+        let nodes = id.ends();
+        let flat = unfold(structure, &nodes, false);
         let end = |k: usize| {
             let connector = connectors[nodes[k]].as_ref()?;
             Some((connector, connector.around().spoke(fin)?))
@@ -219,7 +221,7 @@ fn fin_parts(
         let (marks, missing) = seated.marks(&id, making.marking.height);
         let setback = |k: usize| end(k).map_or(0.0, |(connector, _)| connector.setback());
         let body = FinBody {
-            nodes: *nodes,
+            nodes,
             setbacks: [setback(0), setback(1)],
             shape: shapes.named(&flat, &outline),
             axes: flat.axes,

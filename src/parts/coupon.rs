@@ -8,6 +8,7 @@
 //! as in a job. `f` is bent, `t` is read, `s` goes into the slits.
 
 use crate::geometry::{Contour, Point2, Region, Vector2};
+use crate::ids::NodeId;
 use crate::lettering::{letter, width};
 use crate::parts::fit::Fit;
 use crate::parts::lap::join::{End, Opening, Slit};
@@ -180,7 +181,7 @@ fn slotted(name: char, text: &str, widths: &[f64], fit: &Fit) -> Part {
     let depth = 12.0_f64.max(2.0 * fit.thickness);
     let below = 9.0;
     let land = 3.0 * fit.web.max(2.0);
-    let axis = |node: usize, x: f64| FlatAxis {
+    let axis = |node: NodeId, x: f64| FlatAxis {
         node,
         foot: Point2::new(x, 0.0),
         up: Vector2::y(),
@@ -190,13 +191,14 @@ fn slotted(name: char, text: &str, widths: &[f64], fit: &Fit) -> Part {
     let label = format!("{name} {text}");
     let start = 6.0 + width(&label, 3.0).unwrap_or(0.0);
     let mut x = start.max(land);
-    let (mut axes, mut slits) = (vec![axis(0, 0.0)], BTreeMap::new());
+    let (mut axes, mut slits) = (vec![axis(NodeId::new(0), 0.0)], BTreeMap::new());
     let mut texts = vec![text_at(&label, 3.0, 3.0, 3.0)];
     for (k, &width) in widths.iter().enumerate() {
         x += width / 2.0;
         let half = width / 2.0;
+        let node = NodeId::new(k + 1);
         let slit = Slit {
-            node: k + 1,
+            node,
             partner: 0,
             from: Opening::Top,
             before: half,
@@ -205,11 +207,11 @@ fn slotted(name: char, text: &str, widths: &[f64], fit: &Fit) -> Part {
             crossing: 0.0,
         };
         slits.insert(axes.len(), slit);
-        axes.push(axis(k + 1, x));
-        texts.push(centred(&(k + 1).to_string(), 3.0, x, 3.0));
+        axes.push(axis(node, x));
+        texts.push(centred(&node.to_string(), 3.0, x, 3.0));
         x += half + land;
     }
-    axes.push(axis(widths.len() + 1, x));
+    axes.push(axis(NodeId::new(widths.len() + 1), x));
     let free = || Closure::End(End::Free);
     let body = Piece { axes, slits, closures: [free(), free()], beyond: [None, None] };
     piece(name, outline(&body, fit), texts)

@@ -1,6 +1,7 @@
 //! What can be wrong with connectors.
 
 use crate::diagnostic::{Located, Place, short};
+use crate::ids::NodeId;
 use miette::Diagnostic;
 use thiserror::Error;
 
@@ -23,7 +24,7 @@ pub enum ConnectorFinding {
     )]
     AngleTooSmall {
         fins: [String; 2],
-        node: usize,
+        node: NodeId,
         angle_deg: f64,
         setback_mm: f64,
         least_deg: f64,
@@ -43,7 +44,7 @@ pub enum ConnectorFinding {
     )]
     Touch {
         part: String,
-        nodes: [usize; 2],
+        nodes: [NodeId; 2],
         length_mm: f64,
         web_mm: f64,
         least_mm: f64,
@@ -64,7 +65,7 @@ pub enum ConnectorFinding {
     )]
     SetbackTooLong {
         part: String,
-        nodes: [usize; 2],
+        nodes: [NodeId; 2],
         count: usize,
         length_mm: f64,
         lost_mm: f64,
@@ -83,14 +84,14 @@ pub enum ConnectorFinding {
              connectors (`joint.connector_thickness_mm`); discs (`--joint hub`) take least"
         )
     )]
-    AxisTooShort { node: usize, height_mm: f64, plates: usize, needed_mm: f64 },
+    AxisTooShort { node: NodeId, height_mm: f64, plates: usize, needed_mm: f64 },
 
     #[error("node {node} should get a hub, but there are {count} nodes, counted from 0")]
     #[diagnostic(
         code(parts::no_such_node),
         help("correct `--hubs`, or `joint.hub_nodes` in the template")
     )]
-    NoSuchNode { node: usize, count: usize },
+    NoSuchNode { node: NodeId, count: usize },
 
     #[error("the discs of node {node} are {diameter_mm:.1} mm wide and fit no sheet")]
     #[diagnostic(
@@ -100,7 +101,7 @@ pub enum ConnectorFinding {
              material, or add a sheet of more than {diameter_mm:.0} mm to the stock"
         )
     )]
-    DiscTooLarge { node: usize, diameter_mm: f64, angle_deg: f64 },
+    DiscTooLarge { node: NodeId, diameter_mm: f64, angle_deg: f64 },
 
     #[error("{count} names found no room on {}", some(parts))]
     #[diagnostic(
@@ -123,7 +124,7 @@ pub enum ConnectorFinding {
              thinner sheet"
         )
     )]
-    Collide { first: String, second: String, nodes: Vec<usize>, depth_mm: f64 },
+    Collide { first: String, second: String, nodes: Vec<NodeId>, depth_mm: f64 },
 }
 
 /// The first few names and how many more.

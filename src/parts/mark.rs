@@ -5,6 +5,7 @@
 //! fit is written smaller, then upright, then left out.
 
 use crate::geometry::{Point2, Vector2};
+use crate::ids::NodeId;
 use crate::lettering::{letter, width};
 use crate::parts::lap::join::{Opening, Slit};
 use crate::parts::outline::{Closure, Piece};
@@ -113,7 +114,7 @@ fn between_notches(mut piece: Piece) -> Piece {
 }
 
 /// A node number; one that reads as another upside down ends in a full stop.
-fn node_text(node: usize) -> String {
+fn node_text(node: NodeId) -> String {
     let text = node.to_string();
     let turns_over =
         text.contains(['6', '9']) && text.chars().all(|c| "01689".contains(c));

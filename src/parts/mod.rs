@@ -46,6 +46,7 @@ pub use unfold::{FlatAxis, FlatStrip, Fold, unfold};
 
 use crate::diagnostic::Finding;
 use crate::geometry::{Point2, Region, predicates};
+use crate::ids::NodeId;
 use crate::structure::Structure;
 use crate::tolerance::ARC_SAGITTA_MM;
 use lap::placement::{Plan, plan};
@@ -96,7 +97,7 @@ pub fn too_small(structure: &Structure, fit: &Fit) -> Option<PartFinding> {
 
 /// Makes the parts of a structure whose strips are half-lapped; the nodes `asked` get hubs,
 /// and so do those where ends of strips cannot lap.
-pub fn strips(structure: &Structure, asked: &[usize], making: &Making) -> Made {
+pub fn strips(structure: &Structure, asked: &[NodeId], making: &Making) -> Made {
     let plan = plan(structure, asked, making.fit);
     let Plan { structure, flat, joinery, hubs, findings } = &plan;
     let mut findings: Vec<Finding> =
@@ -186,7 +187,7 @@ fn piece_letter(k: usize) -> String {
 
 /// Tells each slit which part comes into it: of a spliced strip, the piece at that node.
 fn name_partners(parts: &mut [Part], names: &[String]) {
-    let mut at: BTreeMap<(usize, usize), String> = BTreeMap::new();
+    let mut at: BTreeMap<(usize, NodeId), String> = BTreeMap::new();
     for part in parts.iter() {
         let Body::Strip(body) = &part.body else { continue };
         at.extend(

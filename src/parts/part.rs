@@ -1,6 +1,7 @@
 //! A part: one flat shape to be cut, with its marks and its way back into space.
 
 use crate::geometry::{Point2, Region, Vector2};
+use crate::ids::NodeId;
 use crate::parts::assembly::copy::Copy;
 use crate::parts::connector::Connector;
 use crate::parts::lap::join::Slit;
@@ -57,7 +58,7 @@ impl Body {
     }
 
     /// The nodes it reaches, in order along it.
-    pub fn nodes(&self) -> Vec<usize> {
+    pub fn nodes(&self) -> Vec<NodeId> {
         match self {
             Self::Strip(strip) => strip.axes.iter().map(|axis| axis.node).collect(),
             Self::Fin(fin) => fin.nodes.to_vec(),
@@ -105,7 +106,7 @@ pub struct Tip {
     /// Unit vector across the axis, into the part.
     pub inward: Vector2,
     /// The node at the other end of its fin.
-    pub to: usize,
+    pub to: NodeId,
     /// How far the part stops from the axis, mm.
     pub setback: f64,
 }
@@ -114,7 +115,7 @@ pub struct Tip {
 #[derive(Debug, Clone, PartialEq)]
 pub struct FinBody {
     /// Its nodes, from left to right.
-    pub nodes: [usize; 2],
+    pub nodes: [NodeId; 2],
     /// Where their axes lie.
     pub axes: Vec<FlatAxis>,
     /// How far it stops from each axis, mm.
@@ -139,7 +140,7 @@ pub struct ConnectorBody {
 
 impl ConnectorBody {
     /// The node.
-    pub fn node(&self) -> usize {
+    pub fn node(&self) -> NodeId {
         self.connector.around().node
     }
 }
@@ -156,7 +157,7 @@ pub struct StripBody {
     /// Slits with the part that each receives.
     pub slits: Vec<(Slit, String)>,
     /// Fins that are cut in two here, by their nodes in the direction of travel.
-    pub splices: Vec<[usize; 2]>,
+    pub splices: Vec<[NodeId; 2]>,
     /// Whether first and last axis are one in space.
     pub closed: bool,
     /// Place in the order of assembly, from 0; pieces of one strip share it.

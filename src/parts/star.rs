@@ -1,6 +1,7 @@
 //! The fins of a node as its connector sees them.
 
 use crate::geometry::{Point3, Vector2};
+use crate::ids::{FinId, NodeId};
 use crate::parts::fit::Fit;
 use crate::parts::setback::setback;
 use crate::parts::unfold::unfold;
@@ -14,7 +15,7 @@ pub struct Spoke {
     /// Index of the fin in the structure.
     pub fin: usize,
     /// The node at the fin's other end.
-    pub to: usize,
+    pub to: NodeId,
     /// Counter-clockwise from the first spoke seen from above, radians in [0, 2π).
     pub bearing: f64,
     /// Rise of the fin's bottom and top edge per length across the axis.
@@ -27,7 +28,7 @@ pub struct Spoke {
 #[derive(Debug, Clone, PartialEq)]
 pub struct Around {
     /// The node.
-    pub node: usize,
+    pub node: NodeId,
     /// How far its axis reaches below and above the base mesh, mm.
     pub reach: [f64; 2],
     /// Its fins, counter-clockwise seen from above.
@@ -40,8 +41,8 @@ impl Around {
     /// The fins around a node; `None` if fewer than two meet there.
     pub fn new(
         structure: &Structure,
-        fins: &BTreeMap<[usize; 2], usize>,
-        node: usize,
+        fins: &BTreeMap<FinId, usize>,
+        node: NodeId,
         fit: &Fit,
     ) -> Option<Self> {
         let spokes = spokes(structure, fins, node, fit);
@@ -76,15 +77,15 @@ pub(crate) fn sectors(spokes: &[Spoke]) -> Vec<f64> {
 
 fn spokes(
     structure: &Structure,
-    fins: &BTreeMap<[usize; 2], usize>,
-    node: usize,
+    fins: &BTreeMap<FinId, usize>,
+    node: NodeId,
     fit: &Fit,
 ) -> Vec<Spoke> {
     let around = &structure.nodes()[node];
     let angles: Vec<f64> = around.arms.iter().map(|arm| arm.angle).collect();
     let arms = around.arms.iter().enumerate();
     let spokes = arms.filter_map(|(place, arm)| {
-        let pair = [node.min(arm.to), node.max(arm.to)];
+        let pair = FinId::between(node, arm.to);
         let fin = *fins.get(&pair)?;
         Some(Spoke {
             fin,
@@ -98,7 +99,7 @@ fn spokes(
 }
 
 /// Rise of a fin's edges in its plane, as it is cut.
-fn rise(structure: &Structure, node: usize, to: usize) -> [f64; 2] {
+fn rise(structure: &Structure, node: NodeId, to: NodeId) -> [f64; 2] {
     let flat = unfold(structure, &[node, to], false);
     let [own, far] = [&flat.axes[0], &flat.axes[1]];
     let rise = |way: Vector2| way.dot(&own.up) / way.dot(&own.right());
@@ -107,7 +108,7 @@ fn rise(structure: &Structure, node: usize, to: usize) -> [f64; 2] {
 
 /// Shortest way across a fin between its axes, at the heights of its corners: axes that lean
 /// toward each other bring their connectors together.
-pub(crate) fn shortest(structure: &Structure, [i, j]: [usize; 2]) -> f64 {
+pub(crate) fn shortest(structure: &Structure, [i, j]: [NodeId; 2]) -> f64 {
     let (a, b) = (&structure.nodes()[i], &structure.nodes()[j]);
     let pairs = [(a.bottom(), b.bottom()), (a.top(), b.top())];
     let across = pairs.map(|(p, q): (Point3, Point3)| {

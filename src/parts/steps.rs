@@ -1,5 +1,6 @@
 //! In which order fins and discs go together.
 
+use crate::ids::NodeId;
 use crate::parts::connector::Connector;
 use crate::parts::part::{Body, Part};
 use std::collections::BTreeMap;
@@ -46,18 +47,18 @@ struct Plan<'a> {
     parts: &'a [Part],
     steps: Vec<Step>,
     /// Fins by their nodes.
-    at: BTreeMap<usize, Vec<usize>>,
+    at: BTreeMap<NodeId, Vec<usize>>,
     /// Fins that are still to come, by node.
-    left: BTreeMap<usize, usize>,
+    left: BTreeMap<NodeId, usize>,
     /// Connectors that are not finished, by node.
-    open: BTreeMap<usize, usize>,
+    open: BTreeMap<NodeId, usize>,
     /// Hubs whose lower disc is still to come, by node.
-    lower: BTreeMap<usize, usize>,
+    lower: BTreeMap<NodeId, usize>,
 }
 
 impl<'a> Plan<'a> {
     fn new(parts: &'a [Part]) -> Self {
-        let mut at: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
+        let mut at: BTreeMap<NodeId, Vec<usize>> = BTreeMap::new();
         let (mut open, mut lower) = (BTreeMap::new(), BTreeMap::new());
         for (index, part) in parts.iter().enumerate() {
             match &part.body {
@@ -80,7 +81,7 @@ impl<'a> Plan<'a> {
     }
 
     /// Lays lower discs that are still to come.
-    fn lay_below(&mut self, nodes: impl Iterator<Item = usize>) {
+    fn lay_below(&mut self, nodes: impl Iterator<Item = NodeId>) {
         for node in nodes {
             let laid = self.lower.remove(&node);
             self.steps.extend(laid.map(|part| Step { part, copies: [1, 1] }));
@@ -88,7 +89,7 @@ impl<'a> Plan<'a> {
     }
 
     /// A fin stands at a node; the last one brings the rest of its connector.
-    fn stand(&mut self, node: usize) {
+    fn stand(&mut self, node: NodeId) {
         let left = self.left.entry(node).or_default();
         *left -= 1;
         if *left == 0 {
@@ -97,7 +98,7 @@ impl<'a> Plan<'a> {
     }
 
     /// The plates of a node that are still to come.
-    fn finish(&mut self, node: usize) {
+    fn finish(&mut self, node: NodeId) {
         let Some(part) = self.open.remove(&node) else { return };
         let is_hub = match &self.parts[part].body {
             Body::Connector(body) => matches!(body.connector, Connector::Hub(_)),
@@ -111,13 +112,13 @@ impl<'a> Plan<'a> {
 
     /// The connectors that no fin finished: those of strips.
     fn close(&mut self) {
-        let nodes: Vec<usize> = self.open.keys().copied().collect();
+        let nodes: Vec<NodeId> = self.open.keys().copied().collect();
         nodes.into_iter().for_each(|node| self.finish(node));
     }
 }
 
 /// All fins, each beside one that came before if there is one.
-fn walk(parts: &[Part], at: &BTreeMap<usize, Vec<usize>>) -> Vec<usize> {
+fn walk(parts: &[Part], at: &BTreeMap<NodeId, Vec<usize>>) -> Vec<usize> {
     let mut seen = vec![false; parts.len()];
     let mut order: Vec<usize> = Vec::new();
     for start in 0..parts.len() {

@@ -6,6 +6,7 @@
 //! face's normal in space is travel × axis.
 
 use crate::geometry::{Point2, Vector2, Vector3, predicates, trig};
+use crate::ids::NodeId;
 use crate::structure::Structure;
 use crate::tolerance::SAME_FOLD;
 
@@ -13,7 +14,7 @@ use crate::tolerance::SAME_FOLD;
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FlatAxis {
     /// The node.
-    pub node: usize,
+    pub node: NodeId,
     /// Where the axis meets the base mesh.
     pub foot: Point2,
     /// Direction from bottom to top, unit length.
@@ -49,7 +50,7 @@ impl FlatAxis {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Fold {
     /// The node.
-    pub node: usize,
+    pub node: NodeId,
     /// Radians, positive turns the next fin toward the labelled face.
     pub angle: f64,
 }
@@ -66,7 +67,7 @@ pub struct FlatStrip {
 }
 
 /// Unfolds the fins between successive nodes of `chain`.
-pub fn unfold(structure: &Structure, chain: &[usize], closed: bool) -> FlatStrip {
+pub fn unfold(structure: &Structure, chain: &[NodeId], closed: bool) -> FlatStrip {
     let node = |k: usize| &structure.nodes()[chain[k]];
     let flat = |k: usize, foot, up| {
         let (below, above) = (node(k).below, node(k).above);
@@ -174,9 +175,9 @@ impl FlatStrip {
 /// over itself. The second value names the nodes of the cuts.
 pub(crate) fn unfold_without_overlap(
     structure: &Structure,
-    chain: &[usize],
+    chain: &[NodeId],
     closed: bool,
-) -> (Vec<FlatStrip>, Vec<usize>) {
+) -> (Vec<FlatStrip>, Vec<NodeId>) {
     let strip = unfold(structure, chain, closed);
     match strip.smallest_fold() {
         Some(cut) if strip.overlaps_itself() => {

@@ -5,6 +5,7 @@
 //! parts, such as discs at a height where no fin is notched.
 
 use crate::geometry::{Point2, Vector2};
+use crate::ids::NodeId;
 use crate::manifest::{ConnectorEntry, ConnectorKind, PartEntry, RunEntry};
 use crate::parts::{Built, Copy, FlatAxis, Form, Hit, Plates, Role, Snug, Tip, together};
 use crate::proof::connectors::Known;
@@ -45,7 +46,8 @@ pub(super) fn check(
     let news = hits.filter(|hit| !hit.parts.iter().any(blamed));
     news.map(|Hit { parts, nodes, depth_mm }| {
         let spot = Spot { parts: parts.to_vec(), ..Spot::file("job.json") };
-        let spot = nodes.first().map_or_else(|| spot.clone(), |n| spot.clone().node(*n));
+        let spot =
+            nodes.first().map_or_else(|| spot.clone(), |n| spot.clone().node(n.index()));
         ProofFinding::PartsCollide { spot, depth_mm }
     })
     .collect()
@@ -78,12 +80,14 @@ fn fins<'a>(
         let up = (listed.top - listed.bottom).try_normalize(0.0)?;
         let at = &structure.nodes()[node];
         let foot = listed.bottom + up * at.below;
+        let (node, to) = (node.into(), strip.nodes[next].into());
         let axis = FlatAxis { node, foot, up, below: at.below, above: at.above };
         let inward = Vector2::new(up.y, -up.x) * way;
-        Some(Tip { axis, inward, to: strip.nodes[next], setback })
+        Some(Tip { axis, inward, to, setback })
     };
     let tips = own.map(tip).collect::<Option<Vec<Tip>>>()?;
-    Some(Role::Fins { nodes: strip.nodes.clone(), tips, is_strip: part.kind == "strip" })
+    let nodes = strip.nodes.iter().copied().map(NodeId::new).collect();
+    Some(Role::Fins { nodes, tips, is_strip: part.kind == "strip" })
 }
 
 /// One drawn copy of a connector's plates.
@@ -94,7 +98,8 @@ fn plates<'a>(
     copy: usize,
 ) -> Option<Role<'a>> {
     let stands = known.stands(connector)?;
-    let stands: Vec<(&str, usize)> = stands.iter().map(|s| (s.fin, s.to)).collect();
+    let stands = stands.iter().map(|s| (s.fin, s.to.into()));
+    let stands: Vec<(&str, NodeId)> = stands.collect();
     let listed = connector.copies.get(copy.checked_sub(1)?)?;
     let holds =
         (0..stands.len()).filter(|&k| listed.fins.iter().any(|f| f == stands[k].0));
@@ -109,6 +114,7 @@ fn plates<'a>(
         ConnectorKind::Hub => Form::Disc { radius: far(|p| p.norm()) },
         ConnectorKind::Hinge => Form::Eye { radius: far(|p| p.y), tail: far(|p| p.x) },
     };
-    let (node, thickness, copies) = (connector.node, connector.thickness, vec![copy]);
+    let (node, thickness) = (connector.node.into(), connector.thickness);
+    let copies = vec![copy];
     Some(Role::Plates(Plates { node, form, thickness, stands, copies }))
 }

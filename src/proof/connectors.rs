@@ -147,7 +147,7 @@ impl<'a> Known<'a> {
     pub(super) fn stands(&self, connector: &'a ConnectorEntry) -> Option<Vec<Stand<'a>>> {
         let arms = &self.structure.nodes().get(connector.node)?.arms;
         let bearing = |to: usize| {
-            let known = arms.iter().any(|arm| arm.to == to);
+            let known = arms.iter().any(|arm| arm.to.index() == to);
             known.then(|| fit::bearing(self.structure, connector.node, to))
         };
         let mut stands: Vec<Stand> = Vec::new();

@@ -25,8 +25,9 @@ pub(super) fn arms(
     node: usize,
     [before, after]: [Option<usize>; 2],
 ) -> Option<[f64; 2]> {
-    let bearing =
-        |to: usize| structure.nodes()[node].arm(to).map(|_| bearing(structure, node, to));
+    let bearing = |to: usize| {
+        structure.nodes()[node].arm(to.into()).map(|_| bearing(structure, node, to))
+    };
     match (before, after) {
         (Some(before), Some(after)) => Some([bearing(before)?, bearing(after)?]),
         (Some(before), None) => bearing(before).map(|angle| [angle, angle + PI]),

@@ -262,10 +262,14 @@ impl<'a> Strips<'a> {
         let wrong = places.filter_map(|place| {
             let [before, after] = strip.beside(place);
             let node = strip.nodes[place];
-            let has_both = |to: usize| self.structure.nodes()[node].arm(to).is_some();
+            let has_both =
+                |to: usize| self.structure.nodes()[node].arm(to.into()).is_some();
             let (before, after) =
                 (before.filter(|n| has_both(*n))?, after.filter(|n| has_both(*n))?);
-            let needed_deg = self.structure.fold(before, node, after).to_degrees();
+            let needed_deg = self
+                .structure
+                .fold(before.into(), node.into(), after.into())
+                .to_degrees();
             let listed = strip.folds().iter().find(|fold| fold.node == node);
             let listed_deg = listed.map_or(0.0, |fold| fold.angle_deg);
             let spot = Spot::file("job.json").part(id).node(node);
@@ -320,15 +324,15 @@ impl<'a> Strips<'a> {
         });
         let arms = &self.structure.nodes()[node].arms;
         let bearing = |to: usize| fit::bearing(self.structure, node, to);
-        self.structure.nodes()[node].arm(inner)?;
+        self.structure.nodes()[node].arm(inner.into())?;
         if held || arms.len() < 2 {
             return None;
         }
-        let others = arms.iter().filter(|arm| arm.to != inner);
+        let others = arms.iter().filter(|arm| arm.to.index() != inner);
         let thickness = self.manifest.material.thickness;
         let needed_mm = others
             .map(|arm| {
-                let angle = fit::between(bearing(inner), bearing(arm.to));
+                let angle = fit::between(bearing(inner), bearing(arm.to.index()));
                 fit::reach(angle, thickness)
             })
             .fold(0.0, f64::max);

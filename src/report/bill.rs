@@ -2,6 +2,7 @@
 
 use crate::fabrication::Fabrication;
 use crate::geometry::Contour;
+use crate::ids::NodeId;
 use crate::report::connectors::hardware;
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write;
@@ -45,8 +46,8 @@ pub fn bill(job: &Fabrication, material: &str) -> String {
     text
 }
 
-fn joined(nodes: &[usize]) -> String {
-    nodes.iter().map(usize::to_string).collect::<Vec<_>>().join(" ")
+fn joined(nodes: &[NodeId]) -> String {
+    nodes.iter().map(NodeId::to_string).collect::<Vec<_>>().join(" ")
 }
 
 /// A CSV field.

@@ -1,5 +1,6 @@
 //! What `job.json` says of single fins, connectors and what is bought.
 
+use crate::ids::NodeId;
 use crate::manifest::{
     ConnectorEntry, ConnectorKind, CopyEntry, HardwareEntry, RunEntry, SlotEntry,
     degrees, mm,
@@ -10,7 +11,7 @@ use std::collections::BTreeMap;
 
 pub(super) fn fin(body: &FinBody) -> RunEntry {
     RunEntry {
-        nodes: body.nodes.to_vec(),
+        nodes: body.nodes.map(NodeId::index).to_vec(),
         axes: body.axes.iter().map(axis).collect(),
         setbacks: body.setbacks.map(mm),
         closed: None,
@@ -32,7 +33,7 @@ pub(super) fn connector(body: &ConnectorBody) -> ConnectorEntry {
     };
     let slots = named().map(|(fin, spoke)| SlotEntry {
         fin: fin.clone(),
-        to: Some(spoke.to),
+        to: Some(spoke.to.index()),
         angle_deg: degrees(spoke.bearing),
         width: mm(width),
         length: mm(length),
@@ -44,7 +45,7 @@ pub(super) fn connector(body: &ConnectorBody) -> ConnectorEntry {
     };
     ConnectorEntry {
         kind,
-        node: body.node(),
+        node: body.node().index(),
         fins: named().map(|(fin, s)| (fin.clone(), degrees(s.bearing))).collect(),
         slots: slots.collect(),
         radius: mm(connector.radius()),
@@ -61,7 +62,7 @@ pub(super) struct Hardware {
     /// Whole mm; `None` of what comes as it is.
     pub length: Option<u64>,
     pub quantity: usize,
-    pub nodes: Vec<usize>,
+    pub nodes: Vec<NodeId>,
 }
 
 impl Hardware {
@@ -81,7 +82,7 @@ pub(super) fn hardware(parts: &[Part]) -> Vec<Hardware> {
             _ => None,
         })
     };
-    let mut rods: BTreeMap<u64, Vec<usize>> = BTreeMap::new();
+    let mut rods: BTreeMap<u64, Vec<NodeId>> = BTreeMap::new();
     for body in connectors() {
         let (Some(low), Some(high)) = (body.copies.first(), body.copies.last()) else {
             continue;
@@ -118,7 +119,7 @@ pub(super) fn bought(parts: &[Part]) -> Vec<HardwareEntry> {
         diameter: item.diameter,
         length: item.length,
         quantity: item.quantity,
-        nodes: item.nodes,
+        nodes: item.nodes.into_iter().map(NodeId::index).collect(),
     };
     hardware(parts).into_iter().map(item).collect()
 }

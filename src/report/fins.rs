@@ -2,21 +2,22 @@
 
 use crate::fabrication::Fabrication;
 use crate::geometry::Point3;
+use crate::ids::FinId;
 use crate::parts::{Body, Copy, Part};
 use crate::structure::Structure;
 use std::collections::BTreeMap;
 
 /// The fins of a part by their nodes, the smaller one first; a fin that is spliced is on
 /// both of its parts.
-pub(super) fn of_part(part: &Part) -> Vec<[usize; 2]> {
+pub(super) fn of_part(part: &Part) -> Vec<FinId> {
     let body = match &part.body {
         Body::Strip(body) => body,
-        Body::Fin(fin) => return vec![fin.nodes],
+        Body::Fin(fin) => return vec![fin.nodes.into()],
         Body::Connector(_) | Body::Coupon => return Vec::new(),
     };
     let run = body.axes.windows(2).map(|pair| [pair[0].node, pair[1].node]);
     let spliced = body.splices.iter().copied();
-    run.chain(spliced).map(|[i, j]| [i.min(j), i.max(j)]).collect()
+    run.chain(spliced).map(FinId::from).collect()
 }
 
 /// The plates of a connector as squares across the axis.
@@ -36,7 +37,7 @@ pub(super) fn plates(structure: &Structure, part: &Part) -> Vec<[Point3; 4]> {
 }
 
 /// The part of each fin of the structure, if it is on one.
-pub(super) fn parts(job: &Fabrication) -> BTreeMap<[usize; 2], usize> {
+pub(super) fn parts(job: &Fabrication) -> BTreeMap<FinId, usize> {
     let mut of = BTreeMap::new();
     for (index, part) in job.parts.iter().enumerate() {
         for fin in of_part(part) {

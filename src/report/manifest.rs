@@ -3,6 +3,7 @@
 use crate::fabrication::Fabrication;
 use crate::files::{FileFormat, SHEETS};
 use crate::geometry::{Contour, Point2};
+use crate::ids::NodeId;
 use crate::joint::Joint;
 use crate::manifest::{
     AxisEntry, BendEntry, FORMAT, FoldEntry, InsertionEntry, Limits, Manifest,
@@ -128,10 +129,12 @@ fn part(part: &Part) -> PartEntry {
 
 fn strip(body: &StripBody) -> RunEntry {
     let folds = body.folds.iter();
-    let folds = folds.map(|f| FoldEntry { node: f.node, angle_deg: degrees(f.angle) });
-    let splices = body.splices.iter().map(|&fin| SpliceEntry { fin });
+    let folds =
+        folds.map(|f| FoldEntry { node: f.node.index(), angle_deg: degrees(f.angle) });
+    let splices =
+        body.splices.iter().map(|&fin| SpliceEntry { fin: fin.map(NodeId::index) });
     RunEntry {
-        nodes: body.axes.iter().map(|axis| axis.node).collect(),
+        nodes: body.axes.iter().map(|axis| axis.node.index()).collect(),
         axes: body.axes.iter().map(axis).collect(),
         setbacks: body.setbacks.map(mm),
         closed: Some(body.closed),
@@ -143,12 +146,12 @@ fn strip(body: &StripBody) -> RunEntry {
 
 pub(super) fn axis(axis: &FlatAxis) -> AxisEntry {
     let (bottom, top) = (point(axis.bottom()), point(axis.top()));
-    AxisEntry { node: axis.node, bottom, top }
+    AxisEntry { node: axis.node.index(), bottom, top }
 }
 
 fn slit((slit, partner): &(Slit, String)) -> SlitEntry {
     SlitEntry {
-        node: slit.node,
+        node: slit.node.index(),
         from: match slit.from {
             Opening::Top => OpenEdge::Top,
             Opening::Bottom => OpenEdge::Bottom,
@@ -259,7 +262,8 @@ fn strip_step(
     template: &Template,
 ) -> StripStepEntry {
     let onto = body.slits.iter().filter(|(slit, _)| slit.from == Opening::Bottom);
-    let onto = onto.map(|(s, part)| OntoEntry { node: s.node, part: part.clone() });
+    let onto =
+        onto.map(|(s, part)| OntoEntry { node: s.node.index(), part: part.clone() });
     StripStepEntry {
         rank: body.rank + 1,
         onto: onto.collect(),
@@ -275,8 +279,8 @@ fn insertion(
 ) -> Option<InsertionEntry> {
     let material = &template.material;
     let way = parts::insertion(job.structure.as_ref()?, body, material.clearance_mm)?;
-    let bend = way.bend.map(|(radius, after_node)| BendEntry {
-        after_node,
+    let bend = way.bend.map(|(radius, node)| BendEntry {
+        after_node: node.index(),
         radius_mm: rounded(radius, 10.0),
         over_thickness: rounded(radius / material.thickness_mm, 10.0),
     });

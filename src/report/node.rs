@@ -5,6 +5,7 @@
 
 use crate::fabrication::Fabrication;
 use crate::geometry::{Point2, Point3, Vector2, Vector3, trig};
+use crate::ids::NodeId;
 use crate::parts::{Body, ConnectorBody, Part};
 use crate::picture::{self, Camera, PngError};
 use crate::structure::Structure;
@@ -31,7 +32,7 @@ const PLATE: [f64; 3] = [0.98, 0.66, 0.28];
 /// [`PngError`] if it cannot be packed.
 pub fn node_picture(
     job: &Fabrication,
-    node: usize,
+    node: NodeId,
     thickness: f64,
 ) -> Result<Option<Vec<u8>>, PngError> {
     let Some(structure) = &job.structure else { return Ok(None) };
@@ -143,7 +144,7 @@ fn plates(structure: &Structure, (part, body): (&Part, &ConnectorBody)) -> Vec<S
 fn ends(
     structure: &Structure,
     part: &Part,
-    node: usize,
+    node: NodeId,
     (out, thickness): (f64, f64),
 ) -> Vec<Slab> {
     let tips = part.body.tips().into_iter().filter(|tip| tip.axis.node == node);

@@ -33,7 +33,8 @@ impl Picture {
         let camera = Camera::level(FROM);
         let mut panels: Vec<(f64, Panel)> = Vec::new();
         for (part, made) in job.parts.iter().enumerate() {
-            let fins = fins::of_part(made).into_iter().map(|fin| structure.corners(fin));
+            let fins =
+                fins::of_part(made).into_iter().map(|fin| structure.corners(fin.ends()));
             for corners in fins.chain(fins::plates(structure, made)) {
                 let corners = corners.map(|p| p.coords);
                 let depth = corners.iter().map(|p| camera.nearness(p)).sum();

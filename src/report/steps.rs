@@ -1,6 +1,7 @@
 //! The steps of assembly in words.
 
 use crate::fabrication::Fabrication;
+use crate::ids::NodeId;
 use crate::parts::{Body, Connector, ConnectorBody, Opening, Part, insertion};
 use crate::template::Template;
 use std::collections::BTreeSet;
@@ -11,7 +12,7 @@ pub(super) struct Step {
     /// Indices of the parts that go in.
     pub parts: Vec<usize>,
     /// Nodes where it goes onto parts that stand, in order along it.
-    pub onto: Vec<(usize, String)>,
+    pub onto: Vec<(NodeId, String)>,
     /// What to do.
     pub words: String,
     /// Whether it bends more tightly on the way than a model should.
@@ -36,7 +37,7 @@ pub(super) fn standing(job: &Fabrication, steps: &[Step], k: usize) -> Vec<usize
 fn step(job: &Fabrication, part: usize, template: &Template) -> Option<Step> {
     let Body::Strip(body) = &job.parts[part].body else { return None };
     let onto = body.slits.iter().filter(|(slit, _)| slit.from == Opening::Bottom);
-    let onto: Vec<(usize, String)> =
+    let onto: Vec<(NodeId, String)> =
         onto.map(|(slit, partner)| (slit.node, partner.clone())).collect();
     let material = &template.material;
     let way = insertion(job.structure.as_ref()?, body, material.clearance_mm);
@@ -113,7 +114,7 @@ fn connected(
     let made = &job.parts[part];
     let fins: Vec<String> = new.iter().map(|&fin| job.parts[fin].id.clone()).collect();
     let stand = body.fins.iter().filter(|id| !fins.contains(id));
-    let mut onto: Vec<(usize, String)> =
+    let mut onto: Vec<(NodeId, String)> =
         stand.map(|id| (body.node(), id.clone())).collect();
     // A ring comes there with both its ends.
     let mut told = BTreeSet::new();

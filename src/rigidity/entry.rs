@@ -1,5 +1,6 @@
 //! A verdict as JSON.
 
+use crate::ids::NodeId;
 use crate::joint::Joint;
 use crate::rigidity::amplify::Bracket;
 use crate::rigidity::paper::{Discrepancy, Paper};
@@ -164,7 +165,7 @@ impl Verdict {
             amplification_stiff: bounds(stiff, 1.0),
             sway_mm: bounds(amplification, self.play_mm),
             sway_limit_mm: sway.and_then(|sway| six(sway.limit_mm)),
-            node: sway.map(|sway| sway.node).or(self.loose),
+            node: sway.map(|sway| sway.node).or(self.loose).map(NodeId::index),
             direction: sway.map(|sway| sway.direction.iter().map(|x| six(*x)).collect()),
             play_to_pass_mm: self.play_to_pass().filter(|_| sway.is_some()).and_then(six),
             verdict: Some(self.outcome()),
@@ -195,7 +196,7 @@ fn paper_entry(paper: &Paper, per_hinge: bool) -> PaperEntry {
 }
 
 fn hinge(d: &Discrepancy) -> HingeEntry {
-    HingeEntry { node: d.node, bodies: d.bodies, value: six(d.value) }
+    HingeEntry { node: d.node.index(), bodies: d.bodies, value: six(d.value) }
 }
 
 fn remedy(remedy: &Remedy) -> RemedyEntry {
@@ -205,7 +206,7 @@ fn remedy(remedy: &Remedy) -> RemedyEntry {
     };
     RemedyEntry {
         kind: kind.to_owned(),
-        node: remedy.node,
+        node: remedy.node.index(),
         bodies,
         amplification_after: remedy.amplification_after.and_then(six),
         mobility_after: remedy.mobility_after,

@@ -1,6 +1,7 @@
 //! What can be found when a structure is judged.
 
 use crate::diagnostic::{Located, Place};
+use crate::ids::NodeId;
 use miette::Diagnostic;
 use thiserror::Error;
 
@@ -92,7 +93,7 @@ pub enum RigidityFinding {
              says which), or join rigid strips (`--joint lap`)"
         )
     )]
-    Mechanism { mobility: usize, node: usize },
+    Mechanism { mobility: usize, node: NodeId },
 
     #[error(
         "flexible: with {play_mm} mm of play, node {node} sways by {sway}; the limit is \
@@ -105,7 +106,7 @@ pub enum RigidityFinding {
              more nodes (`--fix`), or see `finwright rigidity --remedies`"
         )
     )]
-    Flexible { play_mm: f64, node: usize, sway: String, limit_mm: f64, pass_mm: f64 },
+    Flexible { play_mm: f64, node: NodeId, sway: String, limit_mm: f64, pass_mm: f64 },
 
     #[error(
         "near the limit: with {play_mm} mm of play, node {node} sways by {sway}; the limit \
@@ -118,7 +119,7 @@ pub enum RigidityFinding {
             "a play of {pass_mm:.3} mm would pass without doubt; tighten `clearance_mm`"
         )
     )]
-    Grey { play_mm: f64, node: usize, sway: String, limit_mm: f64, pass_mm: f64 },
+    Grey { play_mm: f64, node: NodeId, sway: String, limit_mm: f64, pass_mm: f64 },
 
     #[error("{verdict}, and accepted as such: {reason}")]
     #[diagnostic(

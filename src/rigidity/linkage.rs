@@ -48,7 +48,7 @@ pub fn read_linkage(text: &str) -> Result<Model, Vec<RigidityFinding>> {
         let mut bodies = bodies;
         bodies.sort_unstable();
         let points = vec![place - half, place + half];
-        Coupling { node: pin, points, bodies, held: false, share: 0.5 }
+        Coupling { node: pin.into(), points, bodies, held: false, share: 0.5 }
     };
     let couplings = file.pins.into_iter().enumerate().map(coupling).collect();
     Ok(Model::new((0..file.bodies).map(RigidBody::Link).collect(), couplings))

@@ -5,6 +5,7 @@
 //! [`Coupling`]s. Notes: `docs/rigidity.md`.
 
 use crate::geometry::{Point3, Vector3};
+use crate::ids::{FinId, NodeId, StripId};
 use crate::structure::Structure;
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -12,11 +13,11 @@ use std::collections::{BTreeMap, BTreeSet};
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum RigidBody {
     /// A strip, by its number.
-    Strip(usize),
+    Strip(StripId),
     /// A fin, by its nodes.
-    Fin([usize; 2]),
+    Fin(FinId),
     /// The hub of a node.
-    Hub(usize),
+    Hub(NodeId),
     /// A body of a linkage, by its number.
     Link(usize),
 }
@@ -25,7 +26,7 @@ impl std::fmt::Display for RigidBody {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         match self {
             Self::Strip(strip) => write!(f, "strip {strip}"),
-            Self::Fin([i, j]) => write!(f, "fin {i}-{j}"),
+            Self::Fin(fin) => write!(f, "fin {fin}"),
             Self::Hub(node) => write!(f, "hub {node}"),
             Self::Link(body) => write!(f, "body {body}"),
         }
@@ -36,7 +37,7 @@ impl std::fmt::Display for RigidBody {
 #[derive(Debug, Clone, PartialEq)]
 pub struct Coupling {
     /// The node it is at.
-    pub node: usize,
+    pub node: NodeId,
     /// Two points, the lower and the upper end of the axis, or the one point of a slot; mm.
     pub points: Vec<Point3>,
     /// The bodies on it, ascending.
@@ -95,12 +96,12 @@ impl Model {
     /// count as no incidence. On the nodes that `moment_arms` names all strips end in a hub.
     pub fn of_strips(
         structure: &Structure,
-        unheld: &BTreeSet<(usize, usize)>,
-        moment_arms: &BTreeMap<usize, f64>,
+        unheld: &BTreeSet<(StripId, NodeId)>,
+        moment_arms: &BTreeMap<NodeId, f64>,
     ) -> Self {
         let (bodies, on) = strips(structure, unheld);
         let fins = structure.strips().iter().enumerate().flat_map(|(index, strip)| {
-            strip.fins().map(move |[i, j]| ([i.min(j), i.max(j)], index))
+            strip.steps().map(move |step| (FinId::from(step), index))
         });
         Self::in_hubs(structure, bodies, on, &fins.collect(), moment_arms)
     }
@@ -108,7 +109,7 @@ impl Model {
     /// A structure of single fins: in hubs on the nodes that `moment_arms` names, on rods
     /// elsewhere. A moment_arm, mm, is how far from the axis the slot holds its fin; it is never
     /// taken for more than a third of the fin.
-    pub fn of_fins(structure: &Structure, moment_arms: &BTreeMap<usize, f64>) -> Self {
+    pub fn of_fins(structure: &Structure, moment_arms: &BTreeMap<NodeId, f64>) -> Self {
         let fins = structure.fins().iter().enumerate().map(|(index, fin)| (*fin, index));
         let (bodies, on) = self::fins(structure);
         Self::in_hubs(structure, bodies, on, &fins.collect(), moment_arms)
@@ -119,8 +120,8 @@ impl Model {
         structure: &Structure,
         mut bodies: Vec<RigidBody>,
         mut on: On,
-        carrier: &BTreeMap<[usize; 2], usize>,
-        moment_arms: &BTreeMap<usize, f64>,
+        carrier: &BTreeMap<FinId, usize>,
+        moment_arms: &BTreeMap<NodeId, f64>,
     ) -> Self {
         let mut slots = Vec::new();
         for (&node, moment_arm) in moment_arms {
@@ -138,7 +139,7 @@ impl Model {
         on: On,
         slots: Vec<Coupling>,
     ) -> Self {
-        let fixed: BTreeSet<usize> = structure.fixed().iter().copied().collect();
+        let fixed: BTreeSet<NodeId> = structure.fixed().iter().copied().collect();
         let mut couplings = Vec::new();
         for (node, bodies) in on {
             let held = fixed.contains(&node);
@@ -176,7 +177,7 @@ impl Model {
     }
 
     /// The pin of a node, if it is one.
-    pub fn pin(&self, node: usize) -> Option<usize> {
+    pub fn pin(&self, node: NodeId) -> Option<usize> {
         self.couplings
             .iter()
             .position(|coupling| coupling.is_pin() && coupling.node == node)
@@ -206,7 +207,7 @@ impl Model {
 
     /// The same with a node held by the ground.
     #[must_use]
-    pub fn with_held(mut self, node: usize) -> Self {
+    pub fn with_held(mut self, node: NodeId) -> Self {
         for coupling in &mut self.couplings {
             coupling.held |= coupling.node == node && coupling.is_pin();
         }
@@ -222,27 +223,28 @@ fn across(axis: Vector3) -> Vector3 {
     axis.cross(&away).normalize()
 }
 
-type On = BTreeMap<usize, Vec<usize>>;
+type On = BTreeMap<NodeId, Vec<usize>>;
 
 fn strips(
     structure: &Structure,
-    unheld: &BTreeSet<(usize, usize)>,
+    unheld: &BTreeSet<(StripId, NodeId)>,
 ) -> (Vec<RigidBody>, On) {
     let mut on = On::new();
     for (index, strip) in structure.strips().iter().enumerate() {
         for &node in &strip.nodes {
-            if !unheld.contains(&(index, node)) {
+            if !unheld.contains(&(StripId::new(index), node)) {
                 on.entry(node).or_default().push(index);
             }
         }
     }
-    ((0..structure.strips().len()).map(RigidBody::Strip).collect(), on)
+    let strips = (0..structure.strips().len()).map(StripId::new);
+    (strips.map(RigidBody::Strip).collect(), on)
 }
 
 fn fins(structure: &Structure) -> (Vec<RigidBody>, On) {
     let mut on = On::new();
     for (index, fin) in structure.fins().iter().enumerate() {
-        for &node in fin {
+        for node in fin.ends() {
             on.entry(node).or_default().push(index);
         }
     }
@@ -252,21 +254,21 @@ fn fins(structure: &Structure) -> (Vec<RigidBody>, On) {
 /// A slot in a hub for each fin of its node.
 fn hub_slots(
     structure: &Structure,
-    node: usize,
+    node: NodeId,
     moment_arm: f64,
-    carrier: &BTreeMap<[usize; 2], usize>,
+    carrier: &BTreeMap<FinId, usize>,
     hub: usize,
 ) -> Vec<Coupling> {
     let at = &structure.nodes()[node];
-    let slot = |to: usize| {
-        let body = *carrier.get(&[node.min(to), node.max(to)])?;
+    let slot = |to: NodeId| {
+        let body = *carrier.get(&FinId::between(node, to))?;
         let length = (structure.nodes()[to].position - at.position).norm();
         let out = moment_arm.min(length / 3.0);
         let points = vec![at.position + structure.direction(node, to) * out];
         Some(Coupling { node, points, bodies: vec![body, hub], held: false, share: 0.0 })
     };
-    let mut ends: Vec<usize> = at.arms.iter().map(|arm| arm.to).collect();
+    let mut ends: Vec<NodeId> = at.arms.iter().map(|arm| arm.to).collect();
     // In the order of the fins, whichever way the node looks at them.
-    ends.sort_unstable_by_key(|&to| [node.min(to), node.max(to)]);
+    ends.sort_unstable_by_key(|&to| FinId::between(node, to));
     ends.into_iter().filter_map(slot).collect()
 }

@@ -8,6 +8,7 @@
 //! (notes §1.4, §3.1).
 
 use crate::geometry::{Point3, Vector3};
+use crate::ids::NodeId;
 use crate::rigidity::criteria::{Criteria, Pairing};
 use crate::rigidity::matrix::Matrix;
 use crate::rigidity::model::Model;
@@ -20,7 +21,7 @@ use crate::watch::Watch;
 #[derive(Debug, Clone, PartialEq)]
 pub struct Discrepancy {
     /// The node of the hinge.
-    pub node: usize,
+    pub node: NodeId,
     /// The two bodies.
     pub bodies: [usize; 2],
     /// The larger of the two ends' differences of velocity, the far node moving by 1.

@@ -2,6 +2,7 @@
 //! that the hinges resist least as a displaced ghost.
 
 use crate::geometry::{Point2, Point3};
+use crate::ids::{FinId, NodeId};
 use crate::picture::{self, Camera, HEAT, PngError};
 use crate::rigidity::model::{Model, RigidBody};
 use crate::rigidity::paper::{Paper, velocity};
@@ -99,7 +100,7 @@ fn panels(
         |body: usize, q: &Point3| velocity(&motion.twists[body], *q * paper.scale);
     let fins =
         || structure.fins().iter().zip(&bodies).filter_map(|(f, b)| Some((*f, (*b)?)));
-    let corners = || fins().map(|(fin, body)| (structure.corners(fin), body));
+    let corners = || fins().map(|(fin, body)| (structure.corners(fin.ends()), body));
     let speeds = corners().flat_map(|(c, body)| c.map(|q| moved(body, &q).norm()));
     let fastest = speeds.fold(f64::MIN_POSITIVE, f64::max);
     let camera = Camera::level(look.from);
@@ -108,9 +109,10 @@ fn panels(
         .fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), x| (l.min(x), h.max(x)));
     let reach = GHOST * (size.1 - size.0) / fastest;
     let mut panels: Vec<Panel> = fins()
-        .map(|([i, j], body)| {
+        .map(|(fin, body)| {
+            let [i, j] = fin.ends();
             let corners = structure.corners([i, j]);
-            let heat = |node: usize| heats.get(&(node, body)).copied().unwrap_or(0.0);
+            let heat = |node: NodeId| heats.get(&(node, body)).copied().unwrap_or(0.0);
             Panel {
                 depth: corners.iter().map(|q| camera.nearness(&q.coords)).sum(),
                 rest: corners.map(|q| camera.flat(&q.coords)),
@@ -133,8 +135,8 @@ fn bodies_of_fins(structure: &Structure, model: &Model) -> Vec<Option<usize>> {
                 of.insert(*fin, index);
             }
             RigidBody::Strip(strip) => {
-                let fins = structure.strips()[*strip].fins();
-                of.extend(fins.map(|[i, j]| ([i.min(j), i.max(j)], index)));
+                let fins = structure.strips()[*strip].steps();
+                of.extend(fins.map(|step| (FinId::from(step), index)));
             }
             RigidBody::Hub(_) | RigidBody::Link(_) => {}
         }
@@ -143,8 +145,8 @@ fn bodies_of_fins(structure: &Structure, model: &Model) -> Vec<Option<usize>> {
 }
 
 /// The largest discrepancy of each body at each node, in a motion.
-fn heats(model: &Model, paper: &Paper, motion: usize) -> BTreeMap<(usize, usize), f64> {
-    let mut heats: BTreeMap<(usize, usize), f64> = BTreeMap::new();
+fn heats(model: &Model, paper: &Paper, motion: usize) -> BTreeMap<(NodeId, usize), f64> {
+    let mut heats: BTreeMap<(NodeId, usize), f64> = BTreeMap::new();
     for d in paper.discrepancies_in(model, motion) {
         for body in d.bodies {
             let heat = heats.entry((d.node, body)).or_default();

@@ -5,6 +5,7 @@
 //! are none, in the least resisted ones weighted by their compliance (notes §3.5).
 
 use crate::geometry::Vector3;
+use crate::ids::NodeId;
 use crate::rigidity::criteria::Criteria;
 use crate::rigidity::mobility::mobility;
 use crate::rigidity::model::{Model, RigidBody};
@@ -29,7 +30,7 @@ pub enum Cure {
 #[derive(Debug, Clone, PartialEq)]
 pub struct Remedy {
     /// Where.
-    pub node: usize,
+    pub node: NodeId,
     /// What.
     pub cure: Cure,
     /// Largest amplification afterwards, upper bound; `None` while it is a mechanism.
@@ -132,7 +133,7 @@ fn resisted(system: &System, watch: &dyn Watch) -> Result<Vec<Resisted>, Halt> {
 fn effect(
     model: &Model,
     criteria: &Criteria,
-    node: usize,
+    node: NodeId,
     cure: Cure,
     watch: &dyn Watch,
 ) -> Result<Remedy, Stopped> {

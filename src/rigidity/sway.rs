@@ -1,6 +1,7 @@
 //! Which node sways most, against what it may: the numbers behind a verdict.
 
 use crate::geometry::{Point3, Vector3};
+use crate::ids::NodeId;
 use crate::rigidity::amplify::{Bracket, Bracketing, Load};
 use crate::rigidity::compliance::compliances;
 use crate::rigidity::criteria::Criteria;
@@ -32,7 +33,7 @@ pub(super) fn rounds_for_figures(system: &System) -> usize {
 #[derive(Debug, Clone, PartialEq)]
 pub struct Sway {
     /// The node.
-    pub node: usize,
+    pub node: NodeId,
     /// Which way, unit vector.
     pub direction: Vector3,
     /// Sway over play there.

@@ -1,5 +1,6 @@
 //! Rigid, grey, flexible or mechanism.
 
+use crate::ids::NodeId;
 use crate::joint::Joint;
 use crate::rigidity::amplify::Bracket;
 use crate::rigidity::criteria::Criteria;
@@ -31,7 +32,7 @@ impl Fingerprint {
         structure: &Structure,
         joint: Joint,
         template: &str,
-        hub_nodes: &[usize],
+        hub_nodes: &[NodeId],
     ) -> Self {
         let (structure, hubs) = (write_json(structure), format!("{hub_nodes:?}"));
         let mut hash = Sha256::new();
@@ -97,7 +98,7 @@ pub struct Verdict {
     /// Sway over play at the same node with every joint stiff, if it was computed.
     pub(super) stiff: Option<Bracket>,
     /// The node that moves most if it is a mechanism.
-    pub(super) loose: Option<usize>,
+    pub(super) loose: Option<NodeId>,
     pub(super) remedies: Vec<Remedy>,
     notes: Vec<RigidityFinding>,
 }
@@ -157,7 +158,7 @@ fn notes(model: &Model) -> Vec<RigidityFinding> {
 }
 
 /// The node that moves most in any of the exact motions.
-fn loosest(system: &System, mobility: &Mobility) -> Option<usize> {
+fn loosest(system: &System, mobility: &Mobility) -> Option<NodeId> {
     let model = system.model;
     let speed = |coupling: usize| {
         let of = |y: &Vec<f64>| sway::node_velocity(system, coupling, y).norm_squared();
@@ -297,7 +298,7 @@ impl Verdict {
     pub fn findings(&self) -> Vec<RigidityFinding> {
         let mut all = self.notes.clone();
         if self.outcome == Outcome::Mechanism {
-            let node = self.loose.unwrap_or(0);
+            let node = self.loose.unwrap_or(NodeId::new(0));
             let mobility = self.mobility.unwrap_or(0);
             all.push(RigidityFinding::Mechanism { mobility, node });
         }

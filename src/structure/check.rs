@@ -1,6 +1,7 @@
 //! Judging a draft and the structure made of it, all faults at once.
 
 use crate::geometry::{DisjointSets, Mesh, Point3, trig};
+use crate::ids::{FaceId, FinId, NodeId};
 use crate::structure::draft::{Draft, area_vector};
 use crate::structure::finding::{FaceFault, StructureFinding};
 use crate::structure::{Node, Structure, surface};
@@ -52,6 +53,7 @@ fn values(draft: &Draft) -> Vec<StructureFinding> {
     for node in 0..draft.positions.len() {
         let (position, axis) = (draft.positions[node], draft.axes[node]);
         let (below, above) = (draft.below[node], draft.above[node]);
+        let node = NodeId::new(node);
         let named = [("position", position.coords), ("axis", axis)];
         let vectors = named.iter().flat_map(|(what, v)| v.iter().map(|&x| (*what, x)));
         let all = vectors.chain([("depth", below), ("depth", above)]);
@@ -91,7 +93,7 @@ fn indices(draft: &Draft) -> Vec<StructureFinding> {
         .map(|(what, index, node)| StructureFinding::IndexOutOfRange {
             what,
             index,
-            node,
+            node: node.into(),
             nodes,
         })
         .collect()
@@ -104,15 +106,16 @@ pub(super) fn mesh(draft: &Draft, mesh: &Mesh) -> Vec<StructureFinding> {
 
 fn faces(draft: &Draft) -> Vec<StructureFinding> {
     let mut findings = Vec::new();
-    let mut seen: BTreeMap<Vec<usize>, usize> = BTreeMap::new();
+    let mut seen: BTreeMap<Vec<usize>, FaceId> = BTreeMap::new();
     for (face, corners) in draft.faces.iter().enumerate() {
+        let face = FaceId::new(face);
         let mut sorted = corners.clone();
         sorted.sort_unstable();
         let repeated = sorted.windows(2).find(|pair| pair[0] == pair[1]);
         let fault = if corners.len() < 3 {
             Some(FaceFault::TooFewCorners { count: corners.len() })
         } else if let Some(pair) = repeated {
-            Some(FaceFault::RepeatedNode { node: pair[0] })
+            Some(FaceFault::RepeatedNode { node: pair[0].into() })
         } else {
             let area_mm2 = area_vector(&draft.positions, corners).norm();
             (area_mm2 < NO_LENGTH_MM).then_some(FaceFault::NoArea { area_mm2 })
@@ -129,8 +132,9 @@ fn faces(draft: &Draft) -> Vec<StructureFinding> {
 fn fins(draft: &Draft) -> Vec<StructureFinding> {
     let mut seen = BTreeSet::new();
     let mut findings = Vec::new();
-    for fin in draft.fin_pairs() {
-        let length = (draft.positions[fin[0]] - draft.positions[fin[1]]).norm();
+    for fin in draft.fin_ids() {
+        let [i, j] = fin.ends();
+        let length = (draft.positions[i] - draft.positions[j]).norm();
         if length < NO_LENGTH_MM {
             findings.push(StructureFinding::ShortFin { fin, length });
         }
@@ -145,20 +149,22 @@ fn fins(draft: &Draft) -> Vec<StructureFinding> {
 fn pieces(draft: &Draft) -> Vec<StructureFinding> {
     let mut pieces = DisjointSets::new(draft.positions.len());
     let mut used = vec![false; draft.positions.len()];
-    for [i, j] in draft.fin_pairs() {
+    for fin in draft.fin_ids() {
+        let [i, j] = fin.ends();
         used[i] = true;
         used[j] = true;
-        pieces.join(i, j);
+        pieces.join(i.index(), j.index());
     }
     let (starts, loose): (Vec<usize>, Vec<usize>) =
         pieces.firsts().into_iter().partition(|&node| used[node]);
     let mut findings = Vec::new();
     if let [_, second, ..] = starts[..] {
         let pieces = starts.len();
-        findings.push(StructureFinding::Disconnected { pieces, node: second });
+        findings.push(StructureFinding::Disconnected { pieces, node: second.into() });
     }
     if let Some(&node) = loose.first() {
-        findings.push(StructureFinding::LooseNode { node, count: loose.len() });
+        let (node, count) = (node.into(), loose.len());
+        findings.push(StructureFinding::LooseNode { node, count });
     }
     findings
 }
@@ -177,12 +183,12 @@ pub(super) fn shape(
 
 fn fin_shape(
     structure: &Structure,
-    fin: [usize; 2],
+    fin: FinId,
     tolerance: &Tolerance,
 ) -> Option<StructureFinding> {
-    let ends = fin.map(|node| &structure.nodes()[node]);
+    let ends = fin.ends().map(|node| &structure.nodes()[node]);
     let edge = ends[1].position - ends[0].position;
-    for (node, end) in fin.into_iter().zip(ends) {
+    for (node, end) in fin.ends().into_iter().zip(ends) {
         let angle = trig::atan2(edge.cross(&end.axis).norm(), edge.dot(&end.axis).abs());
         if angle < tolerance.axis_edge_angle {
             return Some(StructureFinding::AxisAlongFin {
@@ -200,7 +206,7 @@ fn fin_shape(
         let share_percent = share * 100.0;
         return Some(StructureFinding::AxesCrossInFin { fin, share_percent });
     }
-    let (off_mm, diameter) = planarity(&structure.corners(fin));
+    let (off_mm, diameter) = planarity(&structure.corners(fin.ends()));
     let percent = off_mm / diameter * 100.0;
     if off_mm > tolerance.planarity_limit * diameter {
         let limit_percent = tolerance.planarity_limit * 100.0;
@@ -228,7 +234,9 @@ fn depth_share([a, b]: [&Node; 2]) -> Option<f64> {
 
 fn turned_faces(structure: &Structure) -> impl Iterator<Item = StructureFinding> + '_ {
     let positions: Vec<Point3> = structure.nodes().iter().map(|n| n.position).collect();
-    structure.faces().iter().enumerate().filter_map(move |(face, corners)| {
+    let mesh = structure.mesh();
+    mesh.faces().filter_map(move |face| {
+        let corners = mesh.corners(face);
         let normal = area_vector(&positions, corners);
         let with = corners.iter().map(|&k| structure.nodes()[k].axis.dot(&normal));
         (with.sum::<f64>() < 0.0).then_some(StructureFinding::FaceAgainstAxis { face })

@@ -1,6 +1,7 @@
 //! What lies near what in space: fins that cut through each other away from their nodes.
 
 use crate::geometry::{Point3, Vector3};
+use crate::ids::NodeId;
 use crate::structure::Structure;
 use crate::structure::finding::StructureFinding;
 use rstar::primitives::{GeomWithData, Rectangle};
@@ -16,7 +17,7 @@ pub(super) fn fins_that_cross(structure: &Structure) -> Vec<StructureFinding> {
     let fins = structure.fins();
     let mut findings = Vec::new();
     for (a, quad) in tree.quads.iter().enumerate() {
-        let apart = |b: usize| !fins[a].iter().any(|node| fins[b].contains(node));
+        let apart = |b: usize| !fins[a].ends().iter().any(|&node| fins[b].ends_at(node));
         for b in tree.near(quad).into_iter().filter(|&b| a < b && apart(b)) {
             if !quads_meet(quad, &tree.quads[b]) {
                 continue;
@@ -45,7 +46,7 @@ impl FinTree {
     /// Sorts the fins in.
     pub fn new(structure: &Structure) -> Self {
         let quads: Vec<[Point3; 4]> =
-            structure.fins().iter().map(|&fin| structure.corners(fin)).collect();
+            structure.fins().iter().map(|&fin| structure.corners(fin.ends())).collect();
         let entry = |(index, quad)| GeomWithData::new(around(quad).into(), index);
         let boxes = RTree::bulk_load(quads.iter().enumerate().map(entry).collect());
         Self { quads, boxes }
@@ -64,14 +65,14 @@ impl FinTree {
     pub fn blocks(
         &self,
         structure: &Structure,
-        node: usize,
+        node: NodeId,
         segment: [Point3; 2],
         reach: Vector3,
     ) -> bool {
         let quad = [segment[0], segment[0] + reach, segment[1] + reach, segment[1]];
         self.near(&quad)
             .into_iter()
-            .filter(|&index| !structure.fins()[index].contains(&node))
+            .filter(|&index| !structure.fins()[index].ends_at(node))
             .any(|index| quads_meet(&quad, &self.quads[index]))
     }
 }

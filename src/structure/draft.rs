@@ -1,7 +1,7 @@
 //! A structure as somebody wrote it down: nothing has been checked yet.
 
 use crate::geometry::{Point3, Vector3};
-use crate::ids::NodeId;
+use crate::ids::{FinId, NodeId};
 
 /// What the readers make and [`Structure::new`](super::Structure::new) judges.
 /// Lengths are already millimetres at model scale.
@@ -50,15 +50,17 @@ impl Draft {
 
     /// The fins asked for, or every edge of the faces, each once with the smaller
     /// node first, in order of first appearance.
-    pub fn fin_pairs(&self) -> Vec<[usize; 2]> {
+    pub fn fin_ids(&self) -> Vec<FinId> {
+        let fin = |i: usize, j: usize| FinId::between(i.into(), j.into());
         if let Some(fins) = &self.fins {
-            return fins.iter().map(|&[i, j]| [i.min(j), i.max(j)]).collect();
+            return fins.iter().map(|&[i, j]| fin(i, j)).collect();
         }
         let mut seen = std::collections::BTreeSet::new();
         let edges = self.faces.iter().flat_map(|face| face_edges(face));
         edges
-            .map(|(i, j)| [i.min(j), i.max(j)])
-            .filter(|&[i, j]| i != j && seen.insert([i, j]))
+            .filter(|(i, j)| i != j)
+            .map(|(i, j)| fin(i, j))
+            .filter(|&fin| seen.insert(fin))
             .collect()
     }
 }

@@ -2,12 +2,13 @@
 //! axes as line segments, COMPAS JSON; and fins as quads. (`vn` is read and written with the mesh itself.)
 
 use crate::geometry::{Point3, Vector3};
-use crate::structure::obj::{logical_lines, median_fin_length, vector};
+use crate::ids::{FinId, NodeId};
+use crate::structure::obj::{face_rows, logical_lines, median_fin_length, vector};
 use crate::structure::{AxisRule, Draft, ReadError, ReadNote, Structure};
 use crate::units::Unit;
 use serde::Deserialize;
 use serde_json::{Value, json};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// Axes from a second mesh with the same faces, whose vertices lie on them.
 ///
@@ -177,11 +178,12 @@ fn fins_of_edges(
         let mut keys = key.trim_matches(['(', ')']).split(',');
         let mut next = || node.get(&keys.next()?.trim().parse().ok()?).copied();
         let (i, j) = (next()?, next()?);
-        Some(([i.min(j), i.max(j)], data["fin"].as_bool()?))
+        Some((FinId::between(i.into(), j.into()), data["fin"].as_bool()?))
     });
-    let said: BTreeMap<[usize; 2], bool> = said.collect();
-    let carries = |fin: &[usize; 2]| said.get(fin).copied().unwrap_or(true);
-    (!said.is_empty()).then(|| draft.fin_pairs().into_iter().filter(carries).collect())
+    let said: BTreeMap<FinId, bool> = said.collect();
+    let carries = |fin: &FinId| said.get(fin).copied().unwrap_or(true);
+    let fins = || draft.fin_ids().into_iter().filter(carries);
+    (!said.is_empty()).then(|| fins().map(|fin| fin.ends().map(NodeId::index)).collect())
 }
 
 /// Two OBJ meshes with the same faces, through the lower and the upper ends of the axes.
@@ -189,7 +191,7 @@ pub fn write_pair(structure: &Structure) -> [String; 2] {
     let mesh = |title: &str, ends: Vec<Point3>| {
         let mut text = format!("# {}, {title} ends of the axes (mm)\n", structure.name());
         text.extend(ends.iter().map(vertex_row));
-        text + &face_rows(structure)
+        text + &face_rows(structure, |number| number.to_string())
     };
     let nodes = || structure.nodes().iter();
     [
@@ -209,14 +211,14 @@ pub fn write_lines(structure: &Structure) -> [String; 2] {
         lines += &vertex_row(&node.top());
         lines += &format!("l {} {}\n", 2 * k + 1, 2 * k + 2);
     }
-    [mesh + &face_rows(structure), lines]
+    [mesh + &face_rows(structure, |number| number.to_string()), lines]
 }
 
 /// Fins as separate quads in one OBJ.
 pub fn write_fins(structure: &Structure) -> String {
     let mut text = format!("# {}, fins (mm)\n", structure.name());
     for (k, &fin) in structure.fins().iter().enumerate() {
-        text.extend(structure.corners(fin).iter().map(vertex_row));
+        text.extend(structure.corners(fin.ends()).iter().map(vertex_row));
         text += &format!("f {} {} {} {}\n", 4 * k + 1, 4 * k + 2, 4 * k + 3, 4 * k + 4);
     }
     text
@@ -229,14 +231,14 @@ pub fn write_compas(structure: &Structure) -> String {
         let axis: [f64; 3] = node.axis.into();
         (k.to_string(), json!({"x": x, "y": y, "z": z, "axis": axis}))
     });
-    let faces = structure.faces().iter().enumerate();
-    let faces = faces.map(|(k, face)| (k.to_string(), json!(face)));
-    let fins: std::collections::BTreeSet<[usize; 2]> =
-        structure.fins().iter().copied().collect();
-    let every =
-        Draft { faces: structure.faces().to_vec(), ..Draft::default() }.fin_pairs();
-    let edges = every.into_iter().map(|fin| {
-        (format!("({}, {})", fin[0], fin[1]), json!({"fin": fins.contains(&fin)}))
+    let mesh = structure.mesh();
+    let faces = mesh.faces();
+    let faces = faces.map(|face| (face.to_string(), json!(mesh.corners(face))));
+    let fins: BTreeSet<FinId> = structure.fins().iter().copied().collect();
+    let edges = mesh.edges().map(|edge| {
+        let [i, j] = mesh.ends(edge);
+        let fin = fins.contains(&FinId::between(i, j));
+        (format!("({i}, {j})"), json!({"fin": fin}))
     });
     let value = json!({
         "dtype": "compas.datastructures/Mesh",
@@ -250,7 +252,7 @@ pub fn write_compas(structure: &Structure) -> String {
             "facedata": {},
             "edgedata": edges.collect::<serde_json::Map<_, _>>(),
             "max_vertex": structure.nodes().len() as i64 - 1,
-            "max_face": structure.faces().len() as i64 - 1,
+            "max_face": mesh.face_count() as i64 - 1,
         },
     });
     format!("{value}\n")
@@ -258,12 +260,4 @@ pub fn write_compas(structure: &Structure) -> String {
 
 fn vertex_row(p: &Point3) -> String {
     format!("v {} {} {}\n", p.x, p.y, p.z)
-}
-
-fn face_rows(structure: &Structure) -> String {
-    let row = |face: &Vec<usize>| {
-        let corners: Vec<String> = face.iter().map(|k| (k + 1).to_string()).collect();
-        format!("f {}\n", corners.join(" "))
-    };
-    structure.faces().iter().map(row).collect()
 }

@@ -1,6 +1,7 @@
 //! Everything that can be wrong with a structure.
 
 use crate::diagnostic::{Located, Place, short};
+use crate::ids::{FaceId, FinId, NodeId, StripId};
 use miette::Diagnostic;
 use thiserror::Error;
 
@@ -20,7 +21,7 @@ pub enum StructureFinding {
         code(structure::not_finite),
         help("repair the exporting program's output; every coordinate must be a number")
     )]
-    NotFinite { node: usize, what: &'static str, value: f64 },
+    NotFinite { node: NodeId, what: &'static str, value: f64 },
 
     #[error("the {what} of node {node} is {}, beyond {} mm", short(*value), short(*limit))]
     #[diagnostic(
@@ -30,7 +31,7 @@ pub enum StructureFinding {
              digits), and check its units and `--scale`"
         )
     )]
-    TooLarge { node: usize, what: &'static str, value: f64, limit: f64 },
+    TooLarge { node: NodeId, what: &'static str, value: f64, limit: f64 },
 
     #[error("{count} {what} are given for {nodes} nodes")]
     #[diagnostic(
@@ -47,7 +48,7 @@ pub enum StructureFinding {
     IndexOutOfRange {
         what: &'static str,
         index: Option<usize>,
-        node: usize,
+        node: NodeId,
         nodes: usize,
     },
 
@@ -56,7 +57,7 @@ pub enum StructureFinding {
         code(structure::zero_axis),
         help("give every node a direction, or use `--axes normal`")
     )]
-    ZeroAxis { node: usize },
+    ZeroAxis { node: NodeId },
 
     #[error(
         "fins reach {} mm below and {} mm above node {node}: no depth to cut",
@@ -66,25 +67,25 @@ pub enum StructureFinding {
         code(structure::no_depth),
         help("give a positive depth, for instance `--depth 20,20`")
     )]
-    NoDepth { node: usize, below: f64, above: f64 },
+    NoDepth { node: NodeId, below: f64, above: f64 },
 
     #[error("face {face} {fault}")]
     #[diagnostic(
         code(structure::degenerate_face),
         help("remove the face, or merge its corners in the modelling program")
     )]
-    DegenerateFace { face: usize, fault: FaceFault },
+    DegenerateFace { face: FaceId, fault: FaceFault },
 
     #[error("faces {first} and {second} have the same corners")]
     #[diagnostic(code(structure::duplicate_face), help("remove one of the two"))]
-    DuplicateFace { first: usize, second: usize },
+    DuplicateFace { first: FaceId, second: FaceId },
 
-    #[error("{count} faces meet in the edge between nodes {} and {}", fin[0], fin[1])]
+    #[error("{count} faces meet in the edge between nodes {} and {}", fin.ends()[0], fin.ends()[1])]
     #[diagnostic(
         code(structure::non_manifold_edge),
         help("an edge may belong to two faces; remove or separate the others")
     )]
-    NonManifoldEdge { fin: [usize; 2], count: usize },
+    NonManifoldEdge { fin: FinId, count: usize },
 
     #[error(
         "the faces cannot all look to one side, as on a Moebius strip: turned to agree \
@@ -96,7 +97,7 @@ pub enum StructureFinding {
             "node axes need one side to point to; cut the mesh open along a row of edges"
         )
     )]
-    NotOrientable { first: usize, second: usize },
+    NotOrientable { first: FaceId, second: FaceId },
 
     #[error("the faces around node {node} are {fans} fans that touch only there")]
     #[diagnostic(
@@ -104,7 +105,7 @@ pub enum StructureFinding {
         severity(Warning),
         help("if that is not meant, split the node, or add the faces between")
     )]
-    NonManifoldNode { node: usize, fans: usize },
+    NonManifoldNode { node: NodeId, fans: usize },
 
     #[error("faces {first} and {second} run the same way along their common edge")]
     #[diagnostic(
@@ -112,7 +113,7 @@ pub enum StructureFinding {
         severity(Warning),
         help("turn one of them round (\"unify normals\") so that all look to one side")
     )]
-    FaceOrientation { first: usize, second: usize },
+    FaceOrientation { first: FaceId, second: FaceId },
 
     #[error("face {face} looks against its node axes")]
     #[diagnostic(
@@ -120,7 +121,7 @@ pub enum StructureFinding {
         severity(Warning),
         help("turn the face round, or turn its axes, so that `above` is one side")
     )]
-    FaceAgainstAxis { face: usize },
+    FaceAgainstAxis { face: FaceId },
 
     #[error("the structure falls into {pieces} pieces; one begins at node {node}")]
     #[diagnostic(
@@ -128,7 +129,7 @@ pub enum StructureFinding {
         severity(Warning),
         help("nothing joins the pieces; if that is not meant, merge their nodes")
     )]
-    Disconnected { pieces: usize, node: usize },
+    Disconnected { pieces: usize, node: NodeId },
 
     #[error("nodes without a fin: {count}, the first is node {node}")]
     #[diagnostic(
@@ -136,41 +137,37 @@ pub enum StructureFinding {
         severity(Warning),
         help("they are kept so that numbers stay the same, and take no part")
     )]
-    LooseNode { node: usize, count: usize },
+    LooseNode { node: NodeId, count: usize },
 
-    #[error("nodes {} and {} are {} mm apart", fin[0], fin[1], short(*length))]
+    #[error("nodes {} and {} are {} mm apart", fin.ends()[0], fin.ends()[1], short(*length))]
     #[diagnostic(
         code(structure::short_fin),
         help("merge the two nodes; a fin needs a length")
     )]
-    ShortFin { fin: [usize; 2], length: f64 },
+    ShortFin { fin: FinId, length: f64 },
 
-    #[error("fin {}-{} is listed twice", fin[0], fin[1])]
+    #[error("fin {fin} is listed twice")]
     #[diagnostic(code(structure::duplicate_fin), help("list each fin once"))]
-    DuplicateFin { fin: [usize; 2] },
+    DuplicateFin { fin: FinId },
 
-    #[error(
-        "the axis of node {node} runs along fin {}-{}: {angle_deg:.1}° between them",
-        fin[0], fin[1]
-    )]
+    #[error("the axis of node {node} runs along fin {fin}: {angle_deg:.1}° between them")]
     #[diagnostic(
         code(structure::axis_along_fin),
         help("an axis must stand across its fins, by {least_deg:.0}° at least")
     )]
-    AxisAlongFin { node: usize, fin: [usize; 2], angle_deg: f64, least_deg: f64 },
+    AxisAlongFin { node: NodeId, fin: FinId, angle_deg: f64, least_deg: f64 },
 
-    #[error("the axes of nodes {} and {} point to opposite sides", fin[0], fin[1])]
+    #[error("the axes of nodes {} and {} point to opposite sides", fin.ends()[0], fin.ends()[1])]
     #[diagnostic(
         code(structure::axes_opposed),
         help(
             "turn one of the two round, so that all axes point to the same side of the mesh"
         )
     )]
-    AxesOpposed { fin: [usize; 2] },
+    AxesOpposed { fin: FinId },
 
     #[error(
-        "fin {}-{} is out of plane by {percent:.4} % of its diameter ({off_mm:.3} mm)",
-        fin[0], fin[1]
+        "fin {fin} is out of plane by {percent:.4} % of its diameter ({off_mm:.3} mm)"
     )]
     #[diagnostic(
         code(structure::fin_not_planar),
@@ -179,20 +176,19 @@ pub enum StructureFinding {
              axes, or use `--axes X,Y,Z` or `--axes point:X,Y,Z`"
         )
     )]
-    FinNotPlanar { fin: [usize; 2], percent: f64, off_mm: f64, limit_percent: f64 },
+    FinNotPlanar { fin: FinId, percent: f64, off_mm: f64, limit_percent: f64 },
 
     #[error(
-        "fin {}-{} is slightly out of plane: {percent:.4} % of its diameter ({off_mm:.3} mm)",
-        fin[0], fin[1]
+        "fin {fin} is slightly out of plane: {percent:.4} % of its diameter ({off_mm:.3} mm)"
     )]
     #[diagnostic(
         code(structure::fin_warped),
         severity(Warning),
         help("the sheet will take it up; planarise for an exact fit")
     )]
-    FinWarped { fin: [usize; 2], percent: f64, off_mm: f64 },
+    FinWarped { fin: FinId, percent: f64, off_mm: f64 },
 
-    #[error("the node axes of fin {}-{} meet inside the fin", fin[0], fin[1])]
+    #[error("the node axes of fin {fin} meet inside the fin")]
     #[diagnostic(
         code(structure::axes_cross_in_fin),
         help(
@@ -200,17 +196,14 @@ pub enum StructureFinding {
              turn axes that point the wrong way"
         )
     )]
-    AxesCrossInFin { fin: [usize; 2], share_percent: f64 },
+    AxesCrossInFin { fin: FinId, share_percent: f64 },
 
-    #[error(
-        "fins {}-{} and {}-{} cut through each other away from their nodes",
-        first[0], first[1], second[0], second[1]
-    )]
+    #[error("fins {first} and {second} cut through each other away from their nodes")]
     #[diagnostic(
         code(structure::fins_cross),
         help("reduce the depth, or move the nodes apart")
     )]
-    FinsCross { first: [usize; 2], second: [usize; 2] },
+    FinsCross { first: FinId, second: FinId },
 
     #[error(
         "more than {listed} pairs of fins cut through each other; no more are listed"
@@ -226,14 +219,14 @@ pub enum StructureFinding {
         code(structure::strip_without_fin),
         help("list the nodes of a strip in the order of its fins")
     )]
-    StripWithoutFin { strip: usize, step: [usize; 2] },
+    StripWithoutFin { strip: StripId, step: [NodeId; 2] },
 
-    #[error("fin {}-{} is on {count} strips", fin[0], fin[1])]
+    #[error("fin {fin} is on {count} strips")]
     #[diagnostic(
         code(structure::fin_not_on_one_strip),
         help("each fin belongs to one strip; leave `strips` out to have them traced")
     )]
-    FinNotOnOneStrip { fin: [usize; 2], count: usize },
+    FinNotOnOneStrip { fin: FinId, count: usize },
 
     #[error(
         "strip {strip} would meet itself at node {meets}; it is split at node {node}"
@@ -243,7 +236,7 @@ pub enum StructureFinding {
         severity(Advice),
         help("a strip that crosses itself cannot be put together")
     )]
-    StripSplit { strip: usize, meets: usize, node: usize },
+    StripSplit { strip: StripId, meets: NodeId, node: NodeId },
 }
 
 /// The place of an entry in its list; nothing for a list as a whole.
@@ -258,7 +251,7 @@ pub enum FaceFault {
     #[error("has {count} corners")]
     TooFewCorners { count: usize },
     #[error("comes to node {node} twice")]
-    RepeatedNode { node: usize },
+    RepeatedNode { node: NodeId },
     #[error("has an area of {} mm²", short(*area_mm2))]
     NoArea { area_mm2: f64 },
 }
@@ -270,10 +263,10 @@ impl Located for StructureFinding {
             | Self::CountMismatch { .. }
             | Self::FinsCrossOften { .. } => Place::default(),
             Self::IndexOutOfRange { what: "face", index: Some(index), .. } => {
-                Place::faces([index])
+                Place::faces([FaceId::new(index)])
             }
             Self::IndexOutOfRange { what: "strip", index: Some(index), .. } => {
-                Place::strip(index)
+                Place::strip(StripId::new(index))
             }
             Self::IndexOutOfRange { .. } => Place::default(),
             Self::NotFinite { node, .. }
@@ -289,7 +282,7 @@ impl Located for StructureFinding {
             Self::DuplicateFace { first, second }
             | Self::NotOrientable { first, second }
             | Self::FaceOrientation { first, second } => Place::faces([first, second]),
-            Self::AxisAlongFin { node, fin, .. } => Place::fins([fin]).at(node),
+            Self::AxisAlongFin { node, fin, .. } => Place::fins([fin.ends()]).at(node),
             Self::NonManifoldEdge { fin, .. }
             | Self::ShortFin { fin, .. }
             | Self::DuplicateFin { fin }
@@ -297,8 +290,10 @@ impl Located for StructureFinding {
             | Self::FinWarped { fin, .. }
             | Self::AxesCrossInFin { fin, .. }
             | Self::AxesOpposed { fin }
-            | Self::FinNotOnOneStrip { fin, .. } => Place::fins([fin]),
-            Self::FinsCross { first, second } => Place::fins([first, second]),
+            | Self::FinNotOnOneStrip { fin, .. } => Place::fins([fin.ends()]),
+            Self::FinsCross { first, second } => {
+                Place::fins([first.ends(), second.ends()])
+            }
             Self::StripWithoutFin { strip, step } => {
                 Place::strip(strip).at(step[0]).at(step[1])
             }

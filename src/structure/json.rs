@@ -1,6 +1,7 @@
 //! Structures as JSON (contract §2).
 
 use crate::geometry::{Point3, Vector3};
+use crate::ids::NodeId;
 use crate::structure::{AxisRule, Draft, ReadError, ReadNote, Structure};
 use crate::units::Unit;
 use serde::de::{Deserializer, SeqAccess, Visitor};
@@ -238,8 +239,10 @@ pub fn write_json(structure: &Structure) -> String {
     let nodes = structure.nodes();
     let strips = structure.strips().iter().map(|strip| {
         let seam = strip.closed.then_some(strip.nodes[0]);
-        strip.nodes.iter().copied().chain(seam).collect()
+        indices(strip.nodes.iter().chain(&seam))
     });
+    let fins = structure.fins().iter().map(|fin| Row(fin.ends().map(NodeId::index)));
+    let mesh = structure.mesh();
     let file = File {
         format: "finwright-structure".into(),
         version: 1,
@@ -247,16 +250,20 @@ pub fn write_json(structure: &Structure) -> String {
         units: Unit::Millimetre,
         positions: nodes.iter().map(|node| Row(node.position.coords.into())).collect(),
         axes: nodes.iter().map(|node| Row(node.axis.into())).collect(),
-        faces: structure.faces().to_vec(),
+        faces: mesh.faces().map(|face| indices(mesh.corners(face))).collect(),
         depth: Depth {
             below: Reach::shortest(nodes.iter().map(|node| node.below).collect()),
             above: Reach::shortest(nodes.iter().map(|node| node.above).collect()),
         },
-        fins: Some(structure.fins().iter().copied().map(Row).collect()),
+        fins: Some(fins.collect()),
         strips: Some(strips.collect()),
-        fixed: Some(structure.fixed().to_vec()),
+        fixed: Some(indices(structure.fixed())),
     };
     rows(&file)
+}
+
+fn indices<'a>(nodes: impl IntoIterator<Item = &'a NodeId>) -> Vec<usize> {
+    nodes.into_iter().map(|node| node.index()).collect()
 }
 
 /// JSON with a line per key, and per entry of a list.

@@ -1,6 +1,7 @@
 //! Strips that come to a node twice cannot be put together: they are split in between.
 
 use crate::geometry::Point3;
+use crate::ids::{NodeId, StripId};
 use crate::structure::finding::StructureFinding;
 use crate::structure::node::Node;
 use crate::structure::strips::{Strip, fold};
@@ -25,7 +26,7 @@ pub(super) fn without_self_meetings(
             };
             let opened = loops.iter().find(|[a, b]| (a + 1..*b).contains(&cut));
             findings.push(StructureFinding::StripSplit {
-                strip: whole.len(),
+                strip: StripId::new(whole.len()),
                 meets: strip.nodes[opened.map_or(cut, |[a, _]| *a)],
                 node: strip.nodes[cut],
             });
@@ -38,7 +39,7 @@ pub(super) fn without_self_meetings(
 }
 
 /// Places of a chain between which it comes back to a node.
-fn loops(chain: &[usize]) -> Vec<[usize; 2]> {
+fn loops(chain: &[NodeId]) -> Vec<[usize; 2]> {
     let mut seen = BTreeMap::new();
     let visits = chain.iter().enumerate();
     visits.filter_map(|(k, node)| seen.insert(node, k).map(|first| [first, k])).collect()
@@ -46,7 +47,7 @@ fn loops(chain: &[usize]) -> Vec<[usize; 2]> {
 
 /// The place that opens most loops; of those the smallest fold, then the nearest to the
 /// middle of the chain, whichever end it is walked from.
-fn best_cut(chain: &[usize], loops: &[[usize; 2]], nodes: &[Node]) -> Option<usize> {
+fn best_cut(chain: &[NodeId], loops: &[[usize; 2]], nodes: &[Node]) -> Option<usize> {
     let opened =
         |k: usize| loops.iter().filter(|[a, b]| (a + 1..*b).contains(&k)).count();
     let counts: Vec<usize> = (0..chain.len()).map(opened).collect();

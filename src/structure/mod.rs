@@ -32,7 +32,8 @@ pub use sound::SoundDraft;
 pub use strips::Strip;
 
 use crate::diagnostic::{Finding, passes, short};
-use crate::geometry::{Point3, Vector3};
+use crate::geometry::{Mesh, Point3, Vector3};
+use crate::ids::{FinId, NodeId};
 use crate::structure::sound::collect;
 use crate::tolerance::Tolerance;
 use thiserror::Error;
@@ -47,10 +48,10 @@ use thiserror::Error;
 pub struct Structure {
     name: String,
     nodes: Vec<Node>,
-    faces: Vec<Vec<usize>>,
-    fins: Vec<[usize; 2]>,
+    mesh: Mesh,
+    fins: Vec<FinId>,
     strips: Vec<Strip>,
-    fixed: Vec<usize>,
+    fixed: Vec<NodeId>,
 }
 
 /// A draft that is no structure.
@@ -96,12 +97,12 @@ impl Structure {
 
     fn build(sound: SoundDraft, tolerance: &Tolerance) -> (Self, Vec<StructureFinding>) {
         let SoundDraft { draft, mesh, .. } = sound;
-        let fins = draft.fin_pairs();
+        let fins = draft.fin_ids();
         let boundary = mesh.boundary_nodes();
         let nodes = node::join(&draft, &fins);
         let fixed = match draft.fixed {
-            Some(fixed) => fixed,
-            None => (0..nodes.len()).filter(|&node| boundary[node]).collect(),
+            Some(fixed) => fixed.into_iter().map(NodeId::new).collect(),
+            None => mesh.nodes().filter(|&node| boundary[node]).collect(),
         };
         let (strips, findings) = match draft.strips {
             Some(chains) => strips::given(&chains, &fins),
@@ -109,8 +110,7 @@ impl Structure {
         };
         let (strips, split) = meeting::without_self_meetings(strips, &nodes);
         let findings = findings.into_iter().chain(split).collect();
-        let faces = draft.faces;
-        (Self { name: draft.name, nodes, faces, fins, strips, fixed }, findings)
+        (Self { name: draft.name, nodes, mesh, fins, strips, fixed }, findings)
     }
 
     /// Name of the job.
@@ -123,13 +123,13 @@ impl Structure {
         &self.nodes
     }
 
-    /// The faces of the base mesh.
-    pub fn faces(&self) -> &[Vec<usize>] {
-        &self.faces
+    /// The base mesh.
+    pub fn mesh(&self) -> &Mesh {
+        &self.mesh
     }
 
-    /// The fins, each by its two nodes, the smaller one first.
-    pub fn fins(&self) -> &[[usize; 2]] {
+    /// The fins.
+    pub fn fins(&self) -> &[FinId] {
         &self.fins
     }
 
@@ -139,19 +139,20 @@ impl Structure {
     }
 
     /// Nodes held by the ground.
-    pub fn fixed(&self) -> &[usize] {
+    pub fn fixed(&self) -> &[NodeId] {
         &self.fixed
     }
 
     /// The corners of the fin from `i` to `j`: bottom of `i`, bottom of `j`, top of `j`,
     /// top of `i`.
-    pub fn corners(&self, [i, j]: [usize; 2]) -> [Point3; 4] {
+    pub fn corners(&self, [i, j]: [NodeId; 2]) -> [Point3; 4] {
         let (a, b) = (&self.nodes[i], &self.nodes[j]);
         [a.bottom(), b.bottom(), b.top(), a.top()]
     }
 
     /// Length of a fin along the base mesh, mm.
-    pub fn length(&self, [i, j]: [usize; 2]) -> f64 {
+    pub fn length(&self, fin: FinId) -> f64 {
+        let [i, j] = fin.ends();
         (self.nodes[i].position - self.nodes[j].position).norm()
     }
 
@@ -175,13 +176,13 @@ impl Structure {
     }
 
     /// Signed turn at `at` from the fin `from`-`at` to the fin `at`-`to`, radians:
-    /// positive toward travel × axis (contract §3).
-    pub fn fold(&self, from: usize, at: usize, to: usize) -> f64 {
+    /// positive toward travel × axis (docs/structure.md).
+    pub fn fold(&self, from: NodeId, at: NodeId, to: NodeId) -> f64 {
         strips::fold(&self.nodes, [from, at, to])
     }
 
     /// Direction of a fin at one of its ends, across the node axis, of unit length.
-    pub fn direction(&self, at: usize, to: usize) -> Vector3 {
+    pub fn direction(&self, at: NodeId, to: NodeId) -> Vector3 {
         node::across(&self.nodes[at], self.nodes[to].position)
     }
 }

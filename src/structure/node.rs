@@ -1,6 +1,7 @@
 //! A node, its axis, and the fins around it.
 
 use crate::geometry::{Point3, Vector3, trig};
+use crate::ids::{FinId, NodeId};
 use crate::structure::draft::Draft;
 use crate::tolerance::UNIT_LENGTH;
 
@@ -23,7 +24,7 @@ pub struct Node {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Arm {
     /// The node at the fin's other end.
-    pub to: usize,
+    pub to: NodeId,
     /// Direction in the plane across the axis, radians in (-π, π], from a reference
     /// direction of the node.
     pub angle: f64,
@@ -65,7 +66,7 @@ impl Node {
     }
 
     /// The place of the fin toward `to` among the arms.
-    pub fn arm(&self, to: usize) -> Option<usize> {
+    pub fn arm(&self, to: NodeId) -> Option<usize> {
         self.arms.iter().position(|arm| arm.to == to)
     }
 }
@@ -84,7 +85,7 @@ fn unit(direction: Vector3) -> Vector3 {
 }
 
 /// The nodes of a checked draft with their fins around them.
-pub(super) fn join(draft: &Draft, fins: &[[usize; 2]]) -> Vec<Node> {
+pub(super) fn join(draft: &Draft, fins: &[FinId]) -> Vec<Node> {
     let mut nodes: Vec<Node> = (0..draft.positions.len())
         .map(|k| Node {
             position: draft.positions[k],
@@ -94,7 +95,8 @@ pub(super) fn join(draft: &Draft, fins: &[[usize; 2]]) -> Vec<Node> {
             arms: Vec::new(),
         })
         .collect();
-    for &[i, j] in fins {
+    for fin in fins {
+        let [i, j] = fin.ends();
         for (at, to) in [(i, j), (j, i)] {
             let angle = nodes[at].bearing(nodes[to].position);
             nodes[at].arms.push(Arm { to, angle });

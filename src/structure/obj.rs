@@ -5,6 +5,7 @@
 //! (docs/decisions/0003). A test holds the two readers against each other.
 
 use crate::geometry::{Point3, Vector3};
+use crate::structure::Structure;
 use crate::structure::draft::{Draft, area_vector};
 use crate::structure::read::{ReadError, ReadNote};
 use crate::tolerance::SAME_AXIS;
@@ -238,9 +239,10 @@ fn normals(positions: &[Point3], faces: &[Vec<usize>]) -> Vec<Vector3> {
 
 pub(super) fn median_fin_length(draft: &Draft) -> f64 {
     let mut lengths: Vec<f64> = draft
-        .fin_pairs()
+        .fin_ids()
         .iter()
-        .map(|&[i, j]| (draft.positions[i] - draft.positions[j]).norm())
+        .map(|fin| fin.ends().map(|node| draft.positions[node]))
+        .map(|[a, b]| (a - b).norm())
         // What is no number is found later, and once.
         .filter(|length| length.is_finite())
         .collect();
@@ -249,7 +251,7 @@ pub(super) fn median_fin_length(draft: &Draft) -> f64 {
 }
 
 /// Writes nodes, axes and faces as OBJ in millimetres.
-pub fn write_obj(structure: &crate::structure::Structure) -> String {
+pub fn write_obj(structure: &Structure) -> String {
     let mut text = format!("# {} (mm), vn = node axis\n", structure.name());
     let mut row = |key: &str, [x, y, z]: [f64; 3]| {
         text.push_str(&format!("{key} {x} {y} {z}\n"));
@@ -260,10 +262,18 @@ pub fn write_obj(structure: &crate::structure::Structure) -> String {
     for node in structure.nodes() {
         row("vn", node.axis.into());
     }
-    for face in structure.faces() {
-        let corners: Vec<String> =
-            face.iter().map(|node| format!("{0}//{0}", node + 1)).collect();
-        text.push_str(&format!("f {}\n", corners.join(" ")));
-    }
-    text
+    text + &face_rows(structure, |number| format!("{number}//{number}"))
+}
+
+/// The faces, each corner as written for its number, counted from 1.
+pub(super) fn face_rows(
+    structure: &Structure,
+    corner: impl Fn(usize) -> String,
+) -> String {
+    let mesh = structure.mesh();
+    let row = |face| {
+        let corners = mesh.corners(face).iter().map(|node| corner(node.index() + 1));
+        format!("f {}\n", corners.collect::<Vec<_>>().join(" "))
+    };
+    mesh.faces().map(row).collect()
 }

@@ -7,6 +7,7 @@
 //! first, then the one whose far ends have the smaller numbers.
 
 use crate::geometry::trig;
+use crate::ids::{FinId, NodeId, StripId};
 use crate::structure::finding::StructureFinding;
 use crate::structure::node::{Arm, Node, across};
 use crate::tolerance::{SAME_FOLD, SAME_LENGTH_MM, Tolerance};
@@ -17,21 +18,21 @@ use std::f64::consts::PI;
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Strip {
     /// The nodes in order; a closed strip does not repeat its first one.
-    pub nodes: Vec<usize>,
+    pub nodes: Vec<NodeId>,
     /// Whether a fin leads from the last node back to the first.
     pub closed: bool,
 }
 
 impl Strip {
-    /// The fins in order, in the direction of travel.
-    pub fn fins(&self) -> impl Iterator<Item = [usize; 2]> + '_ {
+    /// Its fins in order, each from the node where one comes to it to the next.
+    pub fn steps(&self) -> impl Iterator<Item = [NodeId; 2]> + '_ {
         let back = self.closed.then(|| [self.nodes[self.nodes.len() - 1], self.nodes[0]]);
         self.nodes.windows(2).map(|pair| [pair[0], pair[1]]).chain(back)
     }
 }
 
 /// Signed turn at the middle one of three nodes, radians, positive toward travel × axis.
-pub(super) fn fold(nodes: &[Node], [from, at, to]: [usize; 3]) -> f64 {
+pub(super) fn fold(nodes: &[Node], [from, at, to]: [NodeId; 3]) -> f64 {
     let node = &nodes[at];
     let incoming = -across(node, nodes[from].position);
     let outgoing = across(node, nodes[to].position);
@@ -45,7 +46,7 @@ pub(super) fn traced(
     boundary: &[bool],
     tolerance: &Tolerance,
 ) -> Vec<Strip> {
-    let onward: Vec<BTreeMap<usize, usize>> = nodes
+    let onward: Vec<BTreeMap<NodeId, NodeId>> = nodes
         .iter()
         .zip(boundary)
         .map(|(node, &boundary)| {
@@ -60,6 +61,7 @@ pub(super) fn traced(
         let nodes = nodes.iter().enumerate();
         let onward = &onward;
         nodes.flat_map(move |(at, node)| {
+            let at = NodeId::new(at);
             node.arms
                 .iter()
                 .map(move |arm| (at, arm.to))
@@ -67,7 +69,7 @@ pub(super) fn traced(
         })
     };
     for (at, to) in starts(true).chain(starts(false)) {
-        if !used.contains(&[at.min(to), at.max(to)]) {
+        if !used.contains(&FinId::between(at, to)) {
             strips.push(walk(&onward, &mut used, [at, to]));
         }
     }
@@ -81,7 +83,7 @@ fn continuations(
     lengths: &[f64],
     boundary: bool,
     tolerance: &Tolerance,
-) -> BTreeMap<usize, usize> {
+) -> BTreeMap<NodeId, NodeId> {
     let arms = &node.arms;
     let pairs = if arms.len() == 4 && !boundary {
         vec![(0, 2), (1, 3)]
@@ -122,8 +124,8 @@ struct Pair {
     bend: f64,
     /// Of both fins, mm.
     length: f64,
-    /// The far ends, the smaller number first.
-    ends: [usize; 2],
+    /// Between the far ends.
+    ends: FinId,
 }
 
 impl Pair {
@@ -133,7 +135,7 @@ impl Pair {
             arms,
             bend: (PI - (q.angle - p.angle)).abs(),
             length: arms.iter().map(|&arm| lengths[arm]).sum(),
-            ends: [p.to.min(q.to), p.to.max(q.to)],
+            ends: FinId::between(p.to, q.to),
         }
     }
 
@@ -157,13 +159,13 @@ fn straightest(mut pairs: Vec<&Pair>) -> Option<&Pair> {
 }
 
 fn walk(
-    onward: &[BTreeMap<usize, usize>],
-    used: &mut BTreeSet<[usize; 2]>,
-    [start, next]: [usize; 2],
+    onward: &[BTreeMap<NodeId, NodeId>],
+    used: &mut BTreeSet<FinId>,
+    [start, next]: [NodeId; 2],
 ) -> Strip {
     let mut nodes = vec![start];
     let (mut from, mut at) = (start, next);
-    while used.insert([from.min(at), from.max(at)]) {
+    while used.insert(FinId::between(from, at)) {
         nodes.push(at);
         match onward[at].get(&from) {
             Some(&to) => (from, at) = (at, to),
@@ -177,19 +179,16 @@ fn walk(
 /// The strips a file lists: every step a fin, every fin on one strip.
 pub(super) fn given(
     chains: &[Vec<usize>],
-    fins: &[[usize; 2]],
+    fins: &[FinId],
 ) -> (Vec<Strip>, Vec<StructureFinding>) {
-    let mut uses: BTreeMap<[usize; 2], usize> =
-        fins.iter().map(|&fin| (fin, 0)).collect();
+    let mut uses: BTreeMap<FinId, usize> = fins.iter().map(|&fin| (fin, 0)).collect();
     let mut findings = Vec::new();
     for (strip, chain) in chains.iter().enumerate() {
         for step in chain.windows(2) {
-            match uses.get_mut(&[step[0].min(step[1]), step[0].max(step[1])]) {
+            let (strip, step) = (StripId::new(strip), [step[0].into(), step[1].into()]);
+            match uses.get_mut(&step.into()) {
                 Some(count) => *count += 1,
-                None => findings.push(StructureFinding::StripWithoutFin {
-                    strip,
-                    step: [step[0], step[1]],
-                }),
+                None => findings.push(StructureFinding::StripWithoutFin { strip, step }),
             }
         }
     }
@@ -200,7 +199,8 @@ pub(super) fn given(
     );
     let strips = chains.iter().filter(|chain| chain.len() > 1).map(|chain| {
         let closed = chain.len() > 3 && chain.first() == chain.last();
-        let nodes = chain[..chain.len() - usize::from(closed)].to_vec();
+        let nodes = chain[..chain.len() - usize::from(closed)].iter();
+        let nodes = nodes.copied().map(NodeId::new).collect();
         Strip { nodes, closed }
     });
     (strips.collect(), findings)

@@ -11,6 +11,7 @@ pub use error::{Fault, TemplateErrors};
 pub use keys::PROFILES;
 pub(crate) use keys::nearest;
 
+use crate::ids::NodeId;
 use crate::tolerance::{PROOF_LIMIT_DEG, PROOF_LIMIT_MM};
 use serde::Deserialize;
 use sha2::{Digest, Sha256};
@@ -101,7 +102,7 @@ pub struct Joint {
     #[serde(default)]
     pub disc_slot_mm: Option<f64>,
     #[serde(default)]
-    pub hub_nodes: Vec<usize>,
+    pub hub_nodes: Vec<NodeId>,
 }
 
 /// A size of sheet in stock.

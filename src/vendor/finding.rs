@@ -1,6 +1,7 @@
 //! What a service would refuse, or a maker should know before ordering.
 
 use crate::diagnostic::{Located, Place};
+use crate::ids::NodeId;
 use miette::Diagnostic;
 use thiserror::Error;
 
@@ -57,7 +58,7 @@ pub enum VendorFinding {
     )]
     SlitTooNarrow {
         part: String,
-        node: usize,
+        node: NodeId,
         width_mm: f64,
         profile: &'static str,
         least_mm: f64,

@@ -6,6 +6,7 @@
 //! matrix. By hand, never a test.
 
 use finwright::geometry::{Point3, Vector3, trig};
+use finwright::ids::FinId;
 use finwright::rigidity::{Coupling, Model, RigidBody, least_resisted};
 use std::time::Instant;
 
@@ -28,14 +29,14 @@ fn torus(n: usize) -> Model {
         for step in steps.into_iter().flatten() {
             on[at].push(bodies.len());
             on[at + step].push(bodies.len());
-            bodies.push(RigidBody::Fin([at, at + step]));
+            bodies.push(RigidBody::Fin(FinId::between(at.into(), (at + step).into())));
         }
     }
     let couplings = on.into_iter().enumerate().map(|(node, mut bodies)| {
         let (p, a) = place(node % n, node / n);
         bodies.sort_unstable();
         let points = vec![p - a * 0.25, p + a * 0.25];
-        Coupling { node, points, bodies, held: false, share: 0.5 }
+        Coupling { node: node.into(), points, bodies, held: false, share: 0.5 }
     });
     Model::new(bodies, couplings.collect())
 }

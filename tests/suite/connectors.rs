@@ -6,6 +6,7 @@ use finwright::design::examples;
 use finwright::diagnostic::passes;
 use finwright::fabrication::{Fabrication, fabricate, with_remedies};
 use finwright::geometry::{Contour, Point2, Vector2, Vertex, trig};
+use finwright::ids::{FinId, NodeId};
 use finwright::joint::Joint;
 use finwright::nest::Effort;
 use finwright::parts::{self, Body, ConnectorBody, Part, inner_radius};
@@ -34,7 +35,7 @@ fn connectors(job: &Fabrication) -> impl Iterator<Item = (&Part, &ConnectorBody)
     })
 }
 
-fn fins(job: &Fabrication) -> BTreeMap<&str, [usize; 2]> {
+fn fins(job: &Fabrication) -> BTreeMap<&str, [NodeId; 2]> {
     let fins = job.parts.iter().filter_map(|part| match &part.body {
         Body::Fin(fin) => Some((part.id.as_str(), fin.nodes)),
         _ => None,
@@ -44,9 +45,9 @@ fn fins(job: &Fabrication) -> BTreeMap<&str, [usize; 2]> {
 
 /// Angle from one fin of a node to another, counter-clockwise about the axis, by nothing
 /// but the positions of nodes.
-fn angle(structure: &Structure, node: usize, [from, to]: [usize; 2]) -> f64 {
+fn angle(structure: &Structure, node: NodeId, [from, to]: [NodeId; 2]) -> f64 {
     let at = &structure.nodes()[node];
-    let flat = |other: usize| {
+    let flat = |other: NodeId| {
         let d = structure.nodes()[other].position - at.position;
         d - at.axis * d.dot(&at.axis)
     };
@@ -75,14 +76,15 @@ fn every_fin_is_there_once_and_every_node_has_its_connector_at_the_angles_in_spa
 
 fn is_complete(job: &Fabrication, joint: Joint) {
     let structure = job.structure.as_ref().unwrap();
-    let mut cut: Vec<[usize; 2]> = fins(job).into_values().collect();
+    let mut cut: Vec<FinId> = fins(job).into_values().map(FinId::from).collect();
     cut.sort_unstable();
     let mut all = structure.fins().to_vec();
     all.sort_unstable();
     assert_eq!(cut, all);
     let joined = structure.nodes().iter().enumerate();
     let joined = joined.filter(|(_, node)| node.arms.len() > 1);
-    let nodes: Vec<usize> = connectors(job).map(|(_, body)| body.node()).collect();
+    let nodes: Vec<usize> =
+        connectors(job).map(|(_, body)| body.node().index()).collect();
     assert_eq!(nodes, joined.map(|(k, _)| k).collect::<Vec<_>>());
     for (part, body) in connectors(job) {
         // Windows, rod, and the key hole that tells which face is up.
@@ -259,7 +261,7 @@ fn hubs_on_a_hinged_structure_hold_it_and_the_gate_knows() {
     assert_eq!(outcome(&loose), Outcome::Mechanism);
 
     let every: Vec<usize> = (0..91).collect();
-    let all = made(&hinges.clone().with_hubs(&every));
+    let all = made(&hinges.clone().with_hubs(every));
     let hubs = Settings { joint: Joint::Hub, ..hinges.clone() };
     assert_eq!(outcome(&all), outcome(&made(&hubs)));
 

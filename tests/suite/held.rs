@@ -5,6 +5,7 @@ use crate::structures::material;
 use finwright::design::examples;
 use finwright::diagnostic::passes;
 use finwright::fabrication::{Fabrication, fabricate, model};
+use finwright::ids::NodeId;
 use finwright::nest::Effort;
 use finwright::parts::{self, Body, ConnectorBody, Part};
 use finwright::proof::prove;
@@ -18,10 +19,10 @@ fn made(draft: Draft, template: &Template) -> Fabrication {
     with_hubs(draft, template, &[])
 }
 
-fn with_hubs(draft: Draft, template: &Template, hubs: &[usize]) -> Fabrication {
+fn with_hubs(draft: Draft, template: &Template, hubs: &[NodeId]) -> Fabrication {
     let effort = Effort { trials: 1, seed: 0 };
     let accepted_flexible = Some("a test".to_owned());
-    let settings = Settings::new(template.clone()).with_hubs(hubs);
+    let settings = Settings::new(template.clone()).with_hubs(hubs.iter().copied());
     let settings = Settings { effort, accepted_flexible, ..settings };
     fabricate(draft, settings, &mut ()).unwrap()
 }
@@ -44,7 +45,7 @@ fn connectors(job: &Fabrication) -> Vec<(&Part, &ConnectorBody)> {
 }
 
 /// Names of the parts that end at a node, one for each end.
-fn ending(job: &Fabrication, node: usize) -> Vec<String> {
+fn ending(job: &Fabrication, node: NodeId) -> Vec<String> {
     let ends =
         |part: &Part| part.body.tips().iter().filter(|t| t.axis.node == node).count();
     let ends = job.parts.iter().flat_map(|p| std::iter::repeat_n(p.id.clone(), ends(p)));
@@ -132,7 +133,7 @@ fn the_verdict_counts_with_the_discs() {
     let on = |model: &Model| model.couplings[model.pin(node).unwrap()].bodies.len();
     assert_eq!(on(&model), on(&bare) + 1);
     assert!(job.approved().is_ok(), "judged as it is cut");
-    let settings = job.settings.clone().with_hubs(&[0]);
+    let settings = job.settings.clone().with_hubs([0_usize]);
     let other = Fabrication { settings, ..job };
     assert!(other.approved().is_err(), "judged with other hubs");
 }

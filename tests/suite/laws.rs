@@ -3,8 +3,9 @@
 use crate::plane::{apart, area, contains, cuts};
 use crate::structures::{any, made, material};
 use finwright::fabrication::Fabrication;
-use finwright::geometry::{Contour, Segment};
+use finwright::geometry::{Contour, Mesh, Segment};
 use finwright::geometry::{Point2, Point3, Vector3, Vertex, trig};
+use finwright::ids::{FinId, NodeId};
 use finwright::parts::{Body, Opening, Slit, StripBody};
 use finwright::sheets::{Kerf, placed};
 use finwright::structure::{
@@ -36,7 +37,7 @@ fn bodies(job: &Fabrication) -> impl Iterator<Item = &StripBody> {
 }
 
 /// Corners of a fin in space, as in the plane below.
-fn in_space(structure: &Structure, nodes: [usize; 2]) -> [Point3; 4] {
+fn in_space(structure: &Structure, nodes: [NodeId; 2]) -> [Point3; 4] {
     let [a, b] = nodes.map(|k| &structure.nodes()[k]);
     let low = |n: &finwright::structure::Node| n.position - n.axis * n.below;
     let high = |n: &finwright::structure::Node| n.position + n.axis * n.above;
@@ -74,15 +75,15 @@ proptest! {
     #[test]
     fn strips_and_parts_cover_each_fin_once(draft in any()) {
         let job = job(draft);
-        let mut on_strips: BTreeMap<[usize; 2], usize> = BTreeMap::new();
-        for [i, j] in structure(&job).strips().iter().flat_map(|strip| strip.fins()) {
-            *on_strips.entry([i.min(j), i.max(j)]).or_default() += 1;
+        let mut on_strips: BTreeMap<FinId, usize> = BTreeMap::new();
+        for step in structure(&job).strips().iter().flat_map(|strip| strip.steps()) {
+            *on_strips.entry(step.into()).or_default() += 1;
         }
-        let mut on_parts: BTreeMap<[usize; 2], usize> = BTreeMap::new();
+        let mut on_parts: BTreeMap<FinId, usize> = BTreeMap::new();
         for body in bodies(&job) {
             let whole = body.axes.windows(2).map(|pair| [pair[0].node, pair[1].node]);
-            for [i, j] in whole {
-                *on_parts.entry([i.min(j), i.max(j)]).or_default() += 1;
+            for step in whole {
+                *on_parts.entry(step.into()).or_default() += 1;
             }
         }
         let once: BTreeMap<_, _> =
@@ -96,7 +97,7 @@ proptest! {
     #[test]
     fn a_pair_of_slits_fills_its_axis(draft in any()) {
         let job = job(draft);
-        let mut at: BTreeMap<usize, Vec<(&str, &Slit, &str)>> = BTreeMap::new();
+        let mut at: BTreeMap<NodeId, Vec<(&str, &Slit, &str)>> = BTreeMap::new();
         for part in &job.parts {
             let Body::Strip(body) = &part.body else { continue };
             for (slit, partner) in &body.slits {
@@ -197,7 +198,8 @@ proptest! {
         let options = ObjOptions { unit: Unit::Millimetre, axes: AxisRule::File };
         let (obj, found) = read_obj(&write_obj(&meant), &options).expect("we wrote it");
         prop_assert!(found.is_empty());
-        prop_assert_eq!(&obj.faces, meant.faces());
+        let read = Mesh::new(obj.positions.len(), &obj.faces).expect("we wrote it");
+        prop_assert_eq!(&read, meant.mesh());
         for (k, node) in meant.nodes().iter().enumerate() {
             prop_assert_eq!(obj.positions[k], node.position);
             prop_assert_eq!(obj.axes[k], node.axis);
@@ -228,7 +230,7 @@ proptest! {
 
 /// Unit directions of a strip's two arms at a node, across the axis; past its end a strip
 /// runs straight on.
-fn arms(structure: &Structure, node: usize, body: &StripBody) -> [Vector3; 2] {
+fn arms(structure: &Structure, node: NodeId, body: &StripBody) -> [Vector3; 2] {
     let place =
         body.axes.iter().position(|axis| axis.node == node).expect("it comes there");
     let hub = &structure.nodes()[node];
@@ -251,7 +253,7 @@ fn between(a: Vector3, b: Vector3) -> f64 {
 /// From the axis to each wall of a slit (notes on fabrication, §4.1 and its correction).
 fn asked(
     structure: &Structure,
-    node: usize,
+    node: NodeId,
     own: &StripBody,
     other: &StripBody,
 ) -> [f64; 2] {

@@ -3,6 +3,7 @@
 use finwright::design::planarise::{Options, PlanariseError, Planarised, planarise};
 use finwright::diagnostic::Finding;
 use finwright::geometry::{Point3, Vector3, trig};
+use finwright::ids::NodeId;
 use finwright::structure::{AxisRule, Draft, planarity};
 use finwright::units::Unit;
 
@@ -40,8 +41,10 @@ fn made(draft: Draft) -> Planarised {
 
 /// Planarity by its definition in contract §2, from the draft alone.
 fn worst(draft: &Draft) -> f64 {
-    let shares = draft.fin_pairs().into_iter().map(|[i, j]| {
-        let end = |k: usize, by: f64| draft.positions[k] + draft.axes[k].normalize() * by;
+    let shares = draft.fin_ids().into_iter().map(|fin| {
+        let [i, j] = fin.ends();
+        let end =
+            |k: NodeId, by: f64| draft.positions[k] + draft.axes[k].normalize() * by;
         let (off, diameter) = planarity(&[
             end(i, -draft.below[i]),
             end(j, -draft.below[j]),
@@ -244,7 +247,7 @@ fn exchange_forms_bring_the_axes_back() {
     let read =
         exchange::read_compas(&compas, Unit::Millimetre, AxisRule::File).unwrap().0;
     same(&read, &draft);
-    assert_eq!(read.fin_pairs().len(), draft.fin_pairs().len());
+    assert_eq!(read.fin_ids().len(), draft.fin_ids().len());
 }
 
 /// `finwright planarise fixtures/vault.obj --smooth 8 --boundary-fins --depth 12,12`

@@ -92,7 +92,7 @@ fn corners_move_with_their_part_in_the_softest_motion() {
     for (fin, moved) in structure.fins().iter().zip(scene["motion"].as_array().unwrap()) {
         let moved: Vec<f64> =
             moved.as_array().unwrap().iter().map(|x| x.as_f64().unwrap()).collect();
-        let [a, b, ..] = structure.corners(*fin);
+        let [a, b, ..] = structure.corners(fin.ends());
         let along = (b - a).normalize();
         let speed = |k: usize| {
             along.dot(&finwright::geometry::Vector3::from_row_slice(&moved[k..k + 3]))

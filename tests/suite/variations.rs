@@ -5,6 +5,7 @@ use crate::structures::{made, material, triangles};
 use finwright::design::examples;
 use finwright::fabrication::Fabrication;
 use finwright::geometry::{Point3, Vector3};
+use finwright::ids::NodeId;
 use finwright::parts::Body;
 use finwright::structure::{Draft, Structure};
 use finwright::tolerance::Tolerance;
@@ -163,7 +164,7 @@ fn strips_reversed(draft: &Draft) -> Draft {
     let (structure, _) = structure.expect("it is sound");
     let strips = structure.strips().iter().map(|strip| {
         let seam = strip.closed.then(|| strip.nodes[0]);
-        strip.nodes.iter().copied().chain(seam).rev().collect()
+        strip.nodes.iter().copied().chain(seam).rev().map(NodeId::index).collect()
     });
     Draft { strips: Some(strips.collect()), ..draft.clone() }
 }

@@ -1,6 +1,7 @@
 //! Everything that can be wrong with planarising.
 
 use crate::diagnostic::{Located, Place};
+use crate::ids::{FaceId, FinId, NodeId};
 use miette::Diagnostic;
 use thiserror::Error;
 
@@ -16,7 +17,7 @@ pub enum DesignFinding {
         code(design::faces_turned),
         help("turn them round (\"unify normals\") so that all faces look to one side")
     )]
-    FacesTurned { faces: Vec<usize> },
+    FacesTurned { faces: Vec<FaceId> },
 
     #[error(
         "nodes where faces meet in a point and not along edges: {}, the first is node {}",
@@ -26,7 +27,7 @@ pub enum DesignFinding {
         code(design::several_fans),
         help("split the node in two, or add the face that is missing between the fans")
     )]
-    SeveralFans { nodes: Vec<usize> },
+    SeveralFans { nodes: Vec<NodeId> },
 
     #[error("no fin is left to planarise: every edge ({edges}) is on the boundary")]
     #[diagnostic(
@@ -43,9 +44,8 @@ pub enum DesignFinding {
     TooLarge { fins: usize },
 
     #[error(
-        "fins that could not be made plane: {count}; the worst, fin {}-{}, is out of plane \
-         by {percent:.4} % of its diameter ({off_mm:.3} mm): {reason}",
-        fin[0], fin[1]
+        "fins that could not be made plane: {count}; the worst, fin {fin}, is out of plane \
+         by {percent:.4} % of its diameter ({off_mm:.3} mm): {reason}"
     )]
     #[diagnostic(
         code(design::not_reached),
@@ -54,7 +54,7 @@ pub enum DesignFinding {
         )
     )]
     NotReached {
-        fin: [usize; 2],
+        fin: FinId,
         count: usize,
         percent: f64,
         off_mm: f64,
@@ -81,7 +81,7 @@ pub enum DesignFinding {
         severity(Warning),
         help("make the mesh more even there, lower `--move-limit`, or hold its nodes")
     )]
-    FaceReversed { face: usize },
+    FaceReversed { face: FaceId },
 
     #[error("the axis of node {node} stands {tilt_deg:.1}° off the surface normal")]
     #[diagnostic(
@@ -92,7 +92,7 @@ pub enum DesignFinding {
              `--tilt-limit` (now {limit_deg:.0}°)"
         )
     )]
-    AxisNearTangent { node: usize, tilt_deg: f64, limit_deg: f64 },
+    AxisNearTangent { node: NodeId, tilt_deg: f64, limit_deg: f64 },
 
     #[error(
         "fins ({fins}) were out of plane by up to {before_percent:.3} % of their diameter; \
@@ -121,16 +121,16 @@ pub enum DesignFinding {
 pub enum Reason {
     /// A node or an axis of it is held.
     #[error("node {0} is held")]
-    Held(usize),
+    Held(NodeId),
     /// An axis is at its limit.
     #[error("the axis of node {0} is as close to the surface as it may be")]
-    Tangent(usize),
+    Tangent(NodeId),
     /// A face beside it was turned over.
     #[error("face {0} beside it is turned over")]
-    Reversed(usize),
+    Reversed(FaceId),
     /// A node is at its limit.
     #[error("node {0} has moved as far as it may")]
-    Limit(usize),
+    Limit(NodeId),
     /// It lies on the boundary.
     #[error("it lies on the boundary, where edges have one neighbour only")]
     Boundary,
@@ -163,7 +163,7 @@ impl Located for DesignFinding {
         match self {
             Self::FacesTurned { faces } => Place::faces(faces.clone()),
             Self::SeveralFans { nodes } => Place::nodes(nodes.clone()),
-            Self::NotReached { fin, .. } => Place::fins([*fin]),
+            Self::NotReached { fin, .. } => Place::fins([fin.ends()]),
             Self::FaceReversed { face } => Place::faces([*face]),
             Self::AxisNearTangent { node, .. } => Place::nodes([*node]),
             Self::NoInnerFin { .. }

@@ -7,7 +7,7 @@ use crate::design::planarise::options::Options;
 use crate::design::planarise::setup::Task;
 use crate::design::planarise::surface::Surface;
 use crate::geometry::{Mesh, Point3, Vector3, trig};
-use crate::ids::{FaceId, NodeId};
+use crate::ids::{FaceId, FinId, NodeId};
 use crate::structure::area_vector;
 
 /// A result beside what was given.
@@ -50,7 +50,7 @@ impl Judged<'_> {
     /// What could not be reached, and what has to be looked at.
     pub(super) fn findings(
         &self,
-        fins: &[[usize; 2]],
+        fins: &[FinId],
         options: &Options,
     ) -> Vec<DesignFinding> {
         let mut findings = Vec::new();
@@ -60,29 +60,24 @@ impl Judged<'_> {
         let tilts = self.tilts().map(f64::to_degrees).enumerate();
         // The limit is a soft wall: one degree beyond it is as good as reached.
         let tilted = tilts.filter(|&(_, tilt_deg)| tilt_deg > limit_deg + 1.0);
-        findings.extend(tilted.map(|(node, tilt_deg)| DesignFinding::AxisNearTangent {
-            node,
-            tilt_deg,
-            limit_deg,
+        findings.extend(tilted.map(|(node, tilt_deg)| {
+            let node = NodeId::new(node);
+            DesignFinding::AxisNearTangent { node, tilt_deg, limit_deg }
         }));
         findings
     }
 
-    fn not_reached(
-        &self,
-        fins: &[[usize; 2]],
-        options: &Options,
-    ) -> Option<DesignFinding> {
+    fn not_reached(&self, fins: &[FinId], options: &Options) -> Option<DesignFinding> {
         let planarities = self.planarities();
         let count = planarities.iter().filter(|&&share| share > options.target).count();
         let worst = planarities.iter().enumerate().max_by(|a, b| a.1.total_cmp(b.1));
         let (place, &share) = worst.filter(|_| count > 0)?;
         let fin = fins[place];
+        let [i, j] = fin.ends();
         let diameter_mm =
             self.task.energy.given.fins[place].reach.iter().flatten().sum::<f64>() / 2.0
                 * self.task.unit;
-        let length =
-            (self.result.positions[fin[0]] - self.result.positions[fin[1]]).norm();
+        let length = (self.result.positions[i] - self.result.positions[j]).norm();
         Some(DesignFinding::NotReached {
             fin,
             count,
@@ -93,31 +88,32 @@ impl Judged<'_> {
         })
     }
 
-    fn reason(&self, fin: [usize; 2], options: &Options) -> Reason {
+    fn reason(&self, fin: FinId, options: &Options) -> Reason {
         let inside = &self.task.energy.given;
         let place = &inside.place;
-        let on_rim = |[i, j]: [NodeId; 2]| {
+        let on_rim = || {
+            let [i, j] = fin.ends();
             let side = self.mesh.half_edge(i, j).or(self.mesh.half_edge(j, i));
             side.is_some_and(|side| self.mesh.is_boundary_edge(self.mesh.edge(side)))
         };
-        let held = |&node: &usize| inside.free[place[node]] != [true; 2];
+        let held = |&node: &NodeId| inside.free[place[node]] != [true; 2];
         let tilts: Vec<f64> = self.tilts().collect();
-        let tilted = |&node: &usize| tilts[node] >= options.tilt_limit;
-        let far = |&node: &usize| {
+        let tilted = |&node: &NodeId| tilts[node] >= options.tilt_limit;
+        let far = |&node: &NodeId| {
             let moved = (self.result.positions[node] - self.given.positions[node]).norm();
             moved >= inside.reach[place[node]] * self.task.unit
         };
-        let corners = |face: usize| self.mesh.corners(FaceId::new(face));
-        let beside =
-            |face: &usize| fin.iter().all(|&k| corners(*face).contains(&NodeId::new(k)));
-        let find = |claim: &dyn Fn(&usize) -> bool| fin.into_iter().find(|k| claim(k));
+        let corners = |face: &FaceId| self.mesh.corners(*face);
+        let beside = |face: &FaceId| fin.ends().iter().all(|k| corners(face).contains(k));
+        let find =
+            |claim: &dyn Fn(&NodeId) -> bool| fin.ends().into_iter().find(|k| claim(k));
         if let Some(face) = self.reversed().find(beside) {
             Reason::Reversed(face)
         } else if let Some(node) = find(&tilted) {
             Reason::Tangent(node)
         } else if let Some(node) = find(&held) {
             Reason::Held(node)
-        } else if on_rim(fin.map(NodeId::new)) {
+        } else if on_rim() {
             Reason::Boundary
         } else {
             find(&far).map_or(Reason::Crowded, Reason::Limit)
@@ -125,7 +121,7 @@ impl Judged<'_> {
     }
 
     /// Faces that look the other way, or have a corner that does.
-    fn reversed(&self) -> impl Iterator<Item = usize> + '_ {
+    fn reversed(&self) -> impl Iterator<Item = FaceId> + '_ {
         let folded = |face: &[NodeId], positions: &[Point3], normal: Vector3| {
             let corner = |k: usize| {
                 let at = positions[face[k]];
@@ -135,14 +131,13 @@ impl Judged<'_> {
             };
             (0..face.len()).filter(|&k| corner(k)).count()
         };
-        self.mesh.faces().filter_map(move |face| {
-            let index = face.index();
-            let face = self.mesh.corners(face);
-            let normal = area_vector(&self.given.positions, face);
-            let turned = area_vector(&self.result.positions, face).dot(&normal) <= 0.0;
-            let before = folded(face, &self.given.positions, normal);
-            let after = folded(face, &self.result.positions, normal);
-            (turned || after > before).then_some(index)
+        self.mesh.faces().filter(move |&face| {
+            let corners = self.mesh.corners(face);
+            let normal = area_vector(&self.given.positions, corners);
+            let turned = area_vector(&self.result.positions, corners).dot(&normal) <= 0.0;
+            let before = folded(corners, &self.given.positions, normal);
+            let after = folded(corners, &self.result.positions, normal);
+            turned || after > before
         })
     }
 

@@ -33,7 +33,7 @@ use crate::design::planarise::descent::{Broken, descend};
 use crate::design::planarise::energy::State;
 use crate::diagnostic::Finding;
 use crate::geometry::Mesh;
-use crate::ids::{FaceId, NodeId};
+use crate::ids::NodeId;
 use crate::structure::{Draft, Refused, SoundDraft};
 use crate::watch::{Stopped, Watch};
 
@@ -122,8 +122,9 @@ fn planarise_sound(
     let findings =
         judged.findings(&fins, options).into_iter().map(Finding::from).collect();
     let draft = Draft::from(sound);
+    let listed = fins.iter().map(|fin| fin.ends().map(NodeId::index)).collect();
     let axes = if history.is_empty() { draft.axes } else { result.axes };
-    let draft = Draft { positions: result.positions, axes, fins: Some(fins), ..draft };
+    let draft = Draft { positions: result.positions, axes, fins: Some(listed), ..draft };
     Ok(Planarised { draft, figures, history, findings })
 }
 
@@ -132,11 +133,9 @@ fn must_be_a_surface(mesh: &Mesh) -> Result<(), DesignFinding> {
     // One-sided meshes have been refused as `structure::not_orientable`.
     let turned = mesh.turned_faces().unwrap_or_else(|one_sided| one_sided.faces.into());
     if !turned.is_empty() {
-        let faces = turned.into_iter().map(FaceId::index).collect();
-        return Err(DesignFinding::FacesTurned { faces });
+        return Err(DesignFinding::FacesTurned { faces: turned });
     }
-    let split: Vec<usize> =
-        mesh.non_manifold_nodes().map(|(node, _)| NodeId::index(node)).collect();
+    let split: Vec<NodeId> = mesh.non_manifold_nodes().map(|(node, _)| node).collect();
     if split.is_empty() {
         Ok(())
     } else {

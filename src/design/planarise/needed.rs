@@ -4,6 +4,7 @@ use crate::design::planarise::finding::DesignFinding;
 use crate::design::planarise::options::Options;
 use crate::design::planarise::{PlanariseError, planarise_sound};
 use crate::diagnostic::Finding;
+use crate::ids::{FinId, NodeId};
 use crate::structure::{Draft, SoundDraft, planarity};
 use crate::watch::{Stopped, Watch};
 
@@ -23,7 +24,7 @@ pub fn planarised_if_needed(
     if worst(&draft) <= options.target {
         return Ok((draft, Vec::new()));
     }
-    let all = draft.fin_pairs().len();
+    let all = draft.fin_ids().len();
     let planarised = match planarise_sound(sound, options, watch) {
         Ok(planarised) => planarised,
         Err(PlanariseError::Refused(findings)) => return Ok((draft, findings)),
@@ -50,13 +51,14 @@ pub fn planarised_if_needed(
 /// Worst planarity of a checked draft's fins, as a share of a fin's diameter.
 fn worst(draft: &Draft) -> f64 {
     let end =
-        |k: usize, reach: f64| draft.positions[k] + draft.axes[k].normalize() * reach;
-    let planarity = |[i, j]: [usize; 2]| {
+        |k: NodeId, reach: f64| draft.positions[k] + draft.axes[k].normalize() * reach;
+    let planarity = |fin: FinId| {
+        let [i, j] = fin.ends();
         let (below, above) = (&draft.below, &draft.above);
         let corners =
             [end(i, -below[i]), end(j, -below[j]), end(j, above[j]), end(i, above[i])];
         let (off, diameter) = planarity(&corners);
         off / diameter
     };
-    draft.fin_pairs().into_iter().map(planarity).fold(0.0, f64::max)
+    draft.fin_ids().into_iter().map(planarity).fold(0.0, f64::max)
 }

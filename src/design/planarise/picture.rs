@@ -2,6 +2,7 @@
 //! (plane) to red (out of plane), seen from above at a slant.
 
 use crate::geometry::{Point2, Point3, Vector3};
+use crate::ids::{FinId, NodeId};
 use crate::lettering::letter;
 use crate::picture::{BLUE_TO_RED, Camera};
 use crate::structure::{Draft, planarity};
@@ -83,14 +84,15 @@ impl Panel {
 
     /// Draws all fins, the farthest first; returns the worst planarity.
     fn fins(&self, draft: &Draft, left: f64, pixels: &mut Pixmap) -> f64 {
-        let quad = |&[i, j]: &[usize; 2]| {
-            let end = |k: usize, reach: f64| {
+        let quad = |fin: &FinId| {
+            let [i, j] = fin.ends();
+            let end = |k: NodeId, reach: f64| {
                 draft.positions[k] + draft.axes[k].normalize() * reach
             };
             let (below, above) = (&draft.below, &draft.above);
             [end(i, -below[i]), end(j, -below[j]), end(j, above[j]), end(i, above[i])]
         };
-        let mut quads: Vec<[Point3; 4]> = draft.fin_pairs().iter().map(quad).collect();
+        let mut quads: Vec<[Point3; 4]> = draft.fin_ids().iter().map(quad).collect();
         let near = |quad: &[Point3; 4]| -> f64 {
             quad.iter().map(|p| self.camera.nearness(&p.coords)).sum()
         };

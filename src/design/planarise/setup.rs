@@ -6,7 +6,7 @@ use crate::design::planarise::options::Options;
 use crate::design::planarise::surface::{Surface, rim_beside, unit};
 use crate::design::planarise::terms::{Planarity, wishes};
 use crate::geometry::{Mesh, Point3, Vector3, trig};
-use crate::ids::{EdgeId, NodeId};
+use crate::ids::{FinId, NodeId};
 use crate::structure::Draft;
 use crate::tolerance::CORNER_TURN;
 
@@ -46,26 +46,24 @@ impl Task {
 }
 
 /// The fins to be planarised: those listed, or the edges of the faces.
-pub(super) fn fins(draft: &Draft, mesh: &Mesh, boundary_fins: bool) -> Vec<[usize; 2]> {
+pub(super) fn fins(draft: &Draft, mesh: &Mesh, boundary_fins: bool) -> Vec<FinId> {
     match draft.fins {
-        Some(_) => draft.fin_pairs(),
+        Some(_) => draft.fin_ids(),
         None => {
             let wanted = |&edge: &_| boundary_fins || !mesh.is_boundary_edge(edge);
-            mesh.edges().filter(wanted).map(|edge| ends(mesh, edge)).collect()
+            mesh.edges().filter(wanted).map(|edge| mesh.ends(edge).into()).collect()
         }
     }
-}
-
-fn ends(mesh: &Mesh, edge: EdgeId) -> [usize; 2] {
-    mesh.ends(edge).map(NodeId::index)
 }
 
 /// Axes smoothed over their neighbours: each round brings every axis half way to the mean
 /// of those around it.
 pub fn smoothed_axes(draft: &Draft, rounds: usize) -> Vec<Vector3> {
     let mut around = vec![Vec::new(); draft.positions.len()];
-    for [i, j] in (Draft { fins: None, ..draft.clone() }).fin_pairs() {
-        if i.max(j) < around.len() {
+    for fin in (Draft { fins: None, ..draft.clone() }).fin_ids() {
+        let [i, j] = fin.ends();
+        // The larger one; corners out of range are left for the check of the draft.
+        if j.index() < around.len() {
             around[i].push(j);
             around[j].push(i);
         }
@@ -86,7 +84,7 @@ pub(super) fn task(
     draft: &Draft,
     mesh: &Mesh,
     options: &Options,
-    fins: &[[usize; 2]],
+    fins: &[FinId],
 ) -> Task {
     let nodes = draft.positions.len();
     let unit_length = median_length(draft, fins);
@@ -97,9 +95,10 @@ pub(super) fn task(
     let corners = corners(mesh, &positions);
     let reach =
         |node: usize| [draft.below[node] / unit_length, draft.above[node] / unit_length];
-    let fins: Vec<Fin> =
-        fins.iter().map(|&ends| Fin { ends, reach: ends.map(reach) }).collect();
-    let edges: Vec<[usize; 2]> = mesh.edges().map(|edge| ends(mesh, edge)).collect();
+    let fins = fins.iter().map(|fin| fin.ends().map(NodeId::index));
+    let fins: Vec<Fin> = fins.map(|ends| Fin { ends, reach: ends.map(reach) }).collect();
+    let edges: Vec<[usize; 2]> =
+        mesh.edges().map(|edge| mesh.ends(edge).map(NodeId::index)).collect();
     let mut free: Vec<[bool; 2]> = corners.iter().map(|corner| [!corner, true]).collect();
     options.fixed_nodes.iter().filter(|&&k| k < nodes).for_each(|&k| free[k][0] = false);
     options.fixed_axes.iter().filter(|&&k| k < nodes).for_each(|&k| free[k][1] = false);
@@ -122,8 +121,11 @@ pub(super) fn task(
     Task { energy, unit: unit_length, order }
 }
 
-fn median_length(draft: &Draft, fins: &[[usize; 2]]) -> f64 {
-    let length = |&[i, j]: &[usize; 2]| (draft.positions[i] - draft.positions[j]).norm();
+fn median_length(draft: &Draft, fins: &[FinId]) -> f64 {
+    let length = |fin: &FinId| {
+        let [a, b] = fin.ends().map(|node| draft.positions[node]);
+        (a - b).norm()
+    };
     let mut lengths: Vec<f64> = fins.iter().map(length).collect();
     lengths.sort_by(f64::total_cmp);
     lengths[lengths.len() / 2]

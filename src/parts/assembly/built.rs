@@ -2,6 +2,7 @@
 //! was drawn.
 
 use crate::geometry::Point2;
+use crate::ids::NodeId;
 use crate::parts::assembly::collisions::together;
 use crate::parts::assembly::copy::Copy;
 use crate::parts::connector::Connector;
@@ -28,7 +29,7 @@ pub enum Role<'a> {
     /// Fins in a row, by their nodes, with the ends of the row.
     Fins {
         /// In the direction of travel.
-        nodes: Vec<usize>,
+        nodes: Vec<NodeId>,
         /// Its ends on node axes.
         tips: Vec<Tip>,
         /// Whether it may lap with others of its kind.
@@ -42,14 +43,14 @@ pub enum Role<'a> {
 #[derive(Debug, Clone, PartialEq)]
 pub struct Plates<'a> {
     /// The node.
-    pub node: usize,
+    pub node: NodeId,
     /// What they look like.
     pub form: Form,
     /// Thickness of one, mm.
     pub thickness: f64,
     /// What stands in them, by its name and the node at the other end of its fin; the first
     /// runs along x.
-    pub stands: Vec<(&'a str, usize)>,
+    pub stands: Vec<(&'a str, NodeId)>,
     /// Where they sit and which of those each holds.
     pub copies: Vec<Copy>,
 }
@@ -88,14 +89,14 @@ pub struct Hit {
     /// The parts.
     pub parts: [String; 2],
     /// Nodes that both reach; all of theirs if there is none.
-    pub nodes: Vec<usize>,
+    pub nodes: Vec<NodeId>,
     /// How deep, mm.
     pub depth_mm: f64,
 }
 
 impl Built<'_> {
     /// The nodes it reaches.
-    pub(crate) fn nodes(&self) -> Vec<usize> {
+    pub(crate) fn nodes(&self) -> Vec<NodeId> {
         match &self.role {
             Role::Fins { nodes, .. } => nodes.clone(),
             Role::Plates(plates) => vec![plates.node],

@@ -8,6 +8,7 @@
 //! inside both faces of a plate and in its middle.
 
 use crate::geometry::{Point2, Point3, Vector2, Vector3, predicates, trig};
+use crate::ids::NodeId;
 use crate::parts::assembly::built::{Built, Form, Hit, Plates, Role, Snug};
 use crate::parts::assembly::copy::Copy;
 use crate::parts::assembly::solid::Plate;
@@ -30,7 +31,7 @@ struct Solid<'a> {
 #[derive(Clone, Copy)]
 enum What<'a> {
     /// A fin, by its nodes, and whether it may lap.
-    Fin { nodes: [usize; 2], is_strip: bool },
+    Fin { nodes: [NodeId; 2], is_strip: bool },
     /// A copy of a connector.
     Copy(&'a Plates<'a>, &'a Copy),
 }
@@ -41,7 +42,7 @@ pub fn together(structure: &Structure, parts: &[Built], snug: &Snug) -> Vec<Hit>
         Role::Plates(plates) => Some(plates.node),
         Role::Fins { .. } => None,
     });
-    let joined: BTreeSet<usize> = joined.collect();
+    let joined: BTreeSet<NodeId> = joined.collect();
     let solids: Vec<Solid> =
         parts.iter().flat_map(|part| solids(structure, part, snug.thickness)).collect();
     let boxes = solids.iter().enumerate().map(|(k, solid)| {
@@ -84,7 +85,7 @@ fn holds(plate: &Solid, fin: &Solid) -> bool {
 }
 
 /// Whether two plates may touch: fins of strips meet on axes where no plates part them.
-fn may_touch(a: &Solid, b: &Solid, joined: &BTreeSet<usize>) -> bool {
+fn may_touch(a: &Solid, b: &Solid, joined: &BTreeSet<NodeId>) -> bool {
     let (
         What::Fin { nodes: first, is_strip },
         What::Fin { nodes: second, is_strip: other },
@@ -106,7 +107,7 @@ fn collision(a: &Solid, b: &Solid) -> Option<Hit> {
 }
 
 /// Nodes that both parts reach; all of theirs if there is none.
-fn shared(a: &Built, b: &Built) -> Vec<usize> {
+fn shared(a: &Built, b: &Built) -> Vec<NodeId> {
     let (mut a, b) = (a.nodes(), b.nodes());
     if a.iter().any(|node| b.contains(node)) {
         a.retain(|node| b.contains(node));
@@ -131,11 +132,11 @@ fn solids<'a>(
             return plates.copies.iter().map(solid).collect();
         }
     };
-    let setback = |node: usize, to: usize| {
+    let setback = |node: NodeId, to: NodeId| {
         let tip = tips.iter().find(|tip| (tip.axis.node, tip.to) == (node, to));
         tip.map_or(0.0, |tip| tip.setback)
     };
-    let solid = |fin: &[usize]| {
+    let solid = |fin: &[NodeId]| {
         let nodes = [fin[0], fin[1]];
         let setbacks = [setback(nodes[0], nodes[1]), setback(nodes[1], nodes[0])];
         let plate = fin_plate(structure, nodes, setbacks, thickness)?;
@@ -168,12 +169,12 @@ fn connector_plate(structure: &Structure, plates: &Plates, copy: &Copy) -> Plate
 /// span no plane, which is said elsewhere.
 fn fin_plate(
     structure: &Structure,
-    [i, j]: [usize; 2],
+    [i, j]: [NodeId; 2],
     [first, second]: [f64; 2],
     thickness: f64,
 ) -> Option<Plate> {
     let [a, b, c, d] = structure.corners([i, j]);
-    let cut = |from: Point3, to: Point3, at: usize, toward: usize, setback: f64| {
+    let cut = |from: Point3, to: Point3, at: NodeId, toward: NodeId, setback: f64| {
         let run = (to - from).dot(&structure.direction(at, toward));
         from + (to - from) * (setback / run)
     };
@@ -275,7 +276,7 @@ impl Cut<'_> {
     }
 
     /// Direction of a fin on the plate, from the structure.
-    fn bearing(&self, to: usize) -> Option<Vector2> {
+    fn bearing(&self, to: NodeId) -> Option<Vector2> {
         let frame = Frame::new(self.structure, self.plates)?.turned(self.copy.bearing);
         let out = self.structure.direction(self.plates.node, to);
         let side = frame.axis.cross(&frame.first);

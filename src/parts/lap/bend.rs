@@ -1,6 +1,7 @@
 //! How tightly a strip bends at a node: its fold spread over the fins beside it, less the
 //! slit (fabrication notes §4.6).
 
+use crate::ids::NodeId;
 use crate::parts::lap::join::Slit;
 use crate::parts::part::StripBody;
 use crate::parts::unfold::FlatAxis;
@@ -13,7 +14,7 @@ pub(crate) fn radius(lengths: &[f64], slit: f64, fold: f64) -> f64 {
 }
 
 /// The node and the radius of each bend of a strip's part, mm.
-pub fn bends(body: &StripBody) -> Vec<(usize, f64)> {
+pub fn bends(body: &StripBody) -> Vec<(NodeId, f64)> {
     let length = |pair: &[FlatAxis]| (pair[1].foot - pair[0].foot).norm();
     let bend = |place: usize| {
         let node = body.axes[place].node;

@@ -1,6 +1,7 @@
 //! What can be wrong with parts.
 
 use crate::diagnostic::{Located, Place, short};
+use crate::ids::NodeId;
 use miette::Diagnostic;
 use thiserror::Error;
 
@@ -28,7 +29,7 @@ pub enum PartFinding {
         severity(Advice),
         help("two strips take its place")
     )]
-    OverlapsItself { part: String, node: usize },
+    OverlapsItself { part: String, node: NodeId },
 
     #[error(
         "nothing holds the end of {part} at node {node}: it cannot lap with the {others} \
@@ -44,7 +45,7 @@ pub enum PartFinding {
     )]
     StripEndUnheld {
         part: String,
-        node: usize,
+        node: NodeId,
         others: usize,
         setback_mm: f64,
         why: Option<String>,
@@ -58,7 +59,7 @@ pub enum PartFinding {
              room; let one of them end there"
         )
     )]
-    StripsTouch { first: String, second: String, node: usize },
+    StripsTouch { first: String, second: String, node: NodeId },
 
     #[error("{count} strips run through node {node}")]
     #[diagnostic(
@@ -68,7 +69,7 @@ pub enum PartFinding {
              room; let the others end there"
         )
     )]
-    TooManyStrips { node: usize, count: usize },
+    TooManyStrips { node: NodeId, count: usize },
 
     #[error(
         "{first} and {second} cross at {angle_deg:.1}° at node {node}; the slit would be \
@@ -85,7 +86,7 @@ pub enum PartFinding {
     CrossingTooSharp {
         first: String,
         second: String,
-        node: usize,
+        node: NodeId,
         angle_deg: f64,
         width_mm: f64,
         least_deg: f64,
@@ -103,7 +104,7 @@ pub enum PartFinding {
     CrossingOblique {
         first: String,
         second: String,
-        node: usize,
+        node: NodeId,
         angle_deg: f64,
         play_deg: f64,
     },
@@ -116,7 +117,7 @@ pub enum PartFinding {
              depth, or move `joint.lap_split` toward the other strip"
         )
     )]
-    WebTooThin { part: String, node: usize, web_mm: f64, least_mm: f64 },
+    WebTooThin { part: String, node: NodeId, web_mm: f64, least_mm: f64 },
 
     #[error("{part} keeps only {web_mm:.2} mm behind its slit at node {node}")]
     #[diagnostic(
@@ -126,7 +127,7 @@ pub enum PartFinding {
             "{wanted_mm} mm are recommended (`material.web_mm`); give the fins more depth"
         )
     )]
-    WebThin { part: String, node: usize, web_mm: f64, wanted_mm: f64 },
+    WebThin { part: String, node: NodeId, web_mm: f64, wanted_mm: f64 },
 
     #[error(
         "{part} keeps {web_mm:.2} mm between its slits at nodes {} and {}",
@@ -139,7 +140,7 @@ pub enum PartFinding {
              structure, or use a thinner sheet"
         )
     )]
-    SlitsTooNear { part: String, fin: [usize; 2], web_mm: f64, least_mm: f64 },
+    SlitsTooNear { part: String, fin: [NodeId; 2], web_mm: f64, least_mm: f64 },
 
     #[error(
         "{part} keeps only {web_mm:.2} mm between its slits at nodes {} and {}",
@@ -153,7 +154,7 @@ pub enum PartFinding {
              use a thinner sheet"
         )
     )]
-    SlitsNear { part: String, fin: [usize; 2], web_mm: f64, wanted_mm: f64 },
+    SlitsNear { part: String, fin: [NodeId; 2], web_mm: f64, wanted_mm: f64 },
 
     #[error(
         "{part} folds by {fold_deg:.1}° at node {node}: a bend of radius {radius_mm:.0} mm, \
@@ -168,7 +169,7 @@ pub enum PartFinding {
     )]
     BendBreaks {
         part: String,
-        node: usize,
+        node: NodeId,
         fold_deg: f64,
         radius_mm: f64,
         ratio: f64,
@@ -191,7 +192,7 @@ pub enum PartFinding {
     )]
     BendTight {
         part: String,
-        node: usize,
+        node: NodeId,
         fold_deg: f64,
         radius_mm: f64,
         ratio: f64,
@@ -211,7 +212,7 @@ pub enum PartFinding {
              end, raise `material.clearance_mm`, make the fins less deep, or enlarge it"
         )
     )]
-    InsertionTight { part: String, node: usize, radius_mm: f64, ratio: f64, limit: f64 },
+    InsertionTight { part: String, node: NodeId, radius_mm: f64, ratio: f64, limit: f64 },
 
     #[error(
         "{part} is {length_mm:.0} mm long, fits no sheet, and no fin of it can take a splice"
@@ -230,7 +231,7 @@ pub enum PartFinding {
         code(parts::outline_crosses_itself),
         help("slits and edges are too near each other; enlarge the structure")
     )]
-    OutlineCrossesItself { part: String, node: usize },
+    OutlineCrossesItself { part: String, node: NodeId },
 }
 
 /// Why discs do not hold an end.

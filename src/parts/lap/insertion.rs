@@ -7,6 +7,7 @@
 //! The bend that takes is that of a cantilever as long as the fin: radius = L² / (3 δ).
 
 use crate::geometry::Vector3;
+use crate::ids::NodeId;
 use crate::parts::lap::join::{Opening, Slit};
 use crate::parts::part::StripBody;
 use crate::structure::Structure;
@@ -22,7 +23,7 @@ pub struct Insertion {
     pub is_rigid: bool,
     /// Tightest bend of zipping it in, mm, and the node after which it is; `None` if rigid
     /// or if nothing bends.
-    pub bend: Option<(f64, usize)>,
+    pub bend: Option<(f64, NodeId)>,
 }
 
 /// How a strip goes in; `None` if it is the first to stand at all its nodes.

@@ -5,6 +5,7 @@
 //! way, its end is set back, and stands in discs if they have room.
 
 use crate::geometry::Vector3;
+use crate::ids::NodeId;
 use crate::parts::fit::Fit;
 use crate::parts::lap::finding::PartFinding;
 use crate::parts::lap::placement::Hubs;
@@ -27,7 +28,7 @@ pub enum Opening {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Slit {
     /// The node.
-    pub node: usize,
+    pub node: NodeId,
     /// The strip that the slit receives, by its index.
     pub partner: usize,
     /// Which edge it is open to.
@@ -119,7 +120,7 @@ fn turn(from: f64, to: f64) -> f64 {
 
 /// Two passages that lap, and the smallest of the four angles between their arms.
 struct Lap {
-    node: usize,
+    node: NodeId,
     passages: [Passage; 2],
     crossing: f64,
 }
@@ -187,11 +188,10 @@ fn strip_name(rank: usize, count: usize) -> String {
 }
 
 /// All strips at each node, in the order of the strips.
-fn passages(
-    structure: &Structure,
-    strips: &[FlatStrip],
-) -> BTreeMap<usize, Vec<Passage>> {
-    let mut at: BTreeMap<usize, Vec<Passage>> = BTreeMap::new();
+type Passages = BTreeMap<NodeId, Vec<Passage>>;
+
+fn passages(structure: &Structure, strips: &[FlatStrip]) -> Passages {
+    let mut at = Passages::new();
     for (strip, flat) in strips.iter().enumerate() {
         let last = flat.axes.len() - 1;
         for place in 0..=last {
@@ -218,7 +218,7 @@ struct Meeting<'a> {
     structure: &'a Structure,
     tree: &'a FinTree,
     fit: &'a Fit,
-    node: usize,
+    node: NodeId,
     passages: &'a [Passage],
 }
 

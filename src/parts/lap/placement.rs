@@ -4,6 +4,7 @@
 //! strips end there, those that ran through are cut. The others are asked again, for a
 //! closed strip that was cut has no seam any more.
 
+use crate::ids::{FinId, NodeId, StripId};
 use crate::parts::clearance::hub_lacks;
 use crate::parts::fit::Fit;
 use crate::parts::hub::dimensions::Hub;
@@ -16,7 +17,7 @@ use crate::structure::{Strip, Structure};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// What holds the strips that end on a node, by node.
-pub type Hubs = BTreeMap<usize, Hub>;
+pub type Hubs = BTreeMap<NodeId, Hub>;
 
 /// A structure of strips as they will be cut and joined.
 pub(crate) struct Plan {
@@ -33,18 +34,18 @@ pub(crate) struct Plan {
 }
 
 /// Cuts and joins the strips of a structure; the nodes `asked` get hubs whatever meets there.
-pub(crate) fn plan(structure: &Structure, asked: &[usize], fit: &Fit) -> Plan {
+pub(crate) fn plan(structure: &Structure, asked: &[NodeId], fit: &Fit) -> Plan {
     let fins = structure.fins().iter().enumerate();
-    let index: BTreeMap<[usize; 2], usize> = fins.map(|(k, fin)| (*fin, k)).collect();
+    let index: BTreeMap<FinId, usize> = fins.map(|(k, fin)| (*fin, k)).collect();
     let hub =
-        |node: usize| Some(Hub::new(Around::new(structure, &index, node, fit)?, fit));
-    let nodes = asked.iter().filter(|&&node| node < structure.nodes().len());
+        |node: NodeId| Some(Hub::new(Around::new(structure, &index, node, fit)?, fit));
+    let nodes = asked.iter().filter(|node| node.index() < structure.nodes().len());
     let mut hubs: Hubs = nodes.filter_map(|&node| Some((node, hub(node)?))).collect();
-    let mut refused: BTreeMap<usize, String> = BTreeMap::new();
-    let mut split: BTreeSet<usize> = BTreeSet::new();
+    let mut refused: BTreeMap<NodeId, String> = BTreeMap::new();
+    let mut split: BTreeSet<NodeId> = BTreeSet::new();
     loop {
         let mut plan = joined(structure, hubs, fit, &mut split);
-        let loose: BTreeSet<usize> = plan.findings.iter().filter_map(loose_at).collect();
+        let loose: BTreeSet<NodeId> = plan.findings.iter().filter_map(loose_at).collect();
         let mut grown = false;
         for node in loose {
             let Some(hub) = hub(node).filter(|_| !refused.contains_key(&node)) else {
@@ -67,7 +68,7 @@ pub(crate) fn plan(structure: &Structure, asked: &[usize], fit: &Fit) -> Plan {
 }
 
 /// The node of a finding that says that strips do not hold each other.
-fn loose_at(finding: &PartFinding) -> Option<usize> {
+fn loose_at(finding: &PartFinding) -> Option<NodeId> {
     match finding {
         PartFinding::StripEndUnheld { node, .. }
         | PartFinding::StripsTouch { node, .. }
@@ -82,7 +83,7 @@ fn joined(
     structure: &Structure,
     hubs: Hubs,
     fit: &Fit,
-    split: &mut BTreeSet<usize>,
+    split: &mut BTreeSet<NodeId>,
 ) -> Plan {
     let strips = structure.strips().iter().flat_map(|strip| cut(strip, &hubs));
     let structure = structure.clone().with_strips(strips.collect());
@@ -101,7 +102,7 @@ fn joined(
 
 /// A strip cut at every hub that it runs through; a closed one with one hub stays closed.
 fn cut(strip: &Strip, hubs: &Hubs) -> Vec<Strip> {
-    let is_hub = |node: &usize| hubs.contains_key(node);
+    let is_hub = |node: &NodeId| hubs.contains_key(node);
     let mut nodes = strip.nodes.clone();
     if let Some(first) = nodes.iter().position(is_hub).filter(|_| strip.closed) {
         nodes.rotate_left(first);
@@ -126,7 +127,7 @@ fn cut(strip: &Strip, hubs: &Hubs) -> Vec<Strip> {
 fn flat_strips(
     structure: &Structure,
     hubs: &Hubs,
-    split: &mut BTreeSet<usize>,
+    split: &mut BTreeSet<NodeId>,
 ) -> Vec<FlatStrip> {
     let mut flat = Vec::new();
     let chains = opened(structure, hubs);
@@ -146,7 +147,7 @@ fn chain(flat: &FlatStrip) -> Strip {
 
 impl Plan {
     /// What slits take of each fin at its nodes, by node and the one at the other end, mm.
-    pub(crate) fn slits(&self) -> BTreeMap<[usize; 2], f64> {
+    pub(crate) fn slits(&self) -> BTreeMap<[NodeId; 2], f64> {
         let mut taken = BTreeMap::new();
         for (flat, joints) in self.flat.iter().zip(&self.joinery.joints) {
             for (&place, slit) in &joints.slits {
@@ -167,7 +168,7 @@ impl Plan {
     fn lacks(&self, hub: &Hub, fit: &Fit) -> Option<String> {
         let slits = self.slits();
         let node = hub.around.node;
-        let taken = |to: usize| match self.hubs.get(&to) {
+        let taken = |to: NodeId| match self.hubs.get(&to) {
             Some(other) => other.notch[1],
             None => slits.get(&[to, node]).copied().unwrap_or_default(),
         };
@@ -175,7 +176,7 @@ impl Plan {
     }
 
     /// Tells of ends that nothing holds why discs do not.
-    fn say_why(&mut self, refused: &BTreeMap<usize, String>) {
+    fn say_why(&mut self, refused: &BTreeMap<NodeId, String>) {
         for finding in &mut self.findings {
             if let PartFinding::StripEndUnheld { node, why, .. } = finding {
                 *why = refused.get(node).cloned();
@@ -184,7 +185,7 @@ impl Plan {
     }
 
     /// The ends, as strip and node, that nothing holds.
-    fn unheld(&self) -> BTreeSet<(usize, usize)> {
+    fn unheld(&self) -> BTreeSet<(StripId, NodeId)> {
         let mut unheld = BTreeSet::new();
         let mut held = BTreeSet::new();
         for (strip, (flat, joints)) in
@@ -199,7 +200,7 @@ impl Plan {
                 };
                 let loose = matches!(end, Some(End::SetBack(_)));
                 let into = if loose { &mut unheld } else { &mut held };
-                into.insert((strip, axis.node));
+                into.insert((StripId::new(strip), axis.node));
             }
         }
         // A closed strip comes to its seam twice; one visit that holds is enough.
@@ -213,13 +214,13 @@ pub struct Lapped {
     /// The structure with its strips as they will be cut.
     pub structure: Structure,
     /// The ends, as strip and node, that lap with nothing and stand in no disc.
-    pub unheld: BTreeSet<(usize, usize)>,
+    pub unheld: BTreeSet<(StripId, NodeId)>,
     /// How far from the axis each hub holds ends against turning, by node, mm.
-    pub levers: BTreeMap<usize, f64>,
+    pub levers: BTreeMap<NodeId, f64>,
 }
 
 /// How the strips of a structure hold each other; the nodes `asked` get hubs.
-pub fn lapped(structure: &Structure, asked: &[usize], fit: &Fit) -> Lapped {
+pub fn lapped(structure: &Structure, asked: &[NodeId], fit: &Fit) -> Lapped {
     let plan = plan(structure, asked, fit);
     Lapped {
         unheld: plan.unheld(),

@@ -1,5 +1,6 @@
 //! Where closed strips are opened.
 
+use crate::ids::NodeId;
 use crate::parts::lap::placement::Hubs;
 use crate::structure::{Strip, Structure};
 use crate::tolerance::SAME_FOLD;
@@ -10,7 +11,7 @@ use crate::tolerance::SAME_FOLD;
 /// equal (rings of a dome) it goes to a node where no other strip runs through, which discs
 /// would cut, then to one whose other strips cross fewest seams so far: none should lose all
 /// of its joints.
-pub(crate) fn opened(structure: &Structure, hubs: &Hubs) -> Vec<Vec<usize>> {
+pub(crate) fn opened(structure: &Structure, hubs: &Hubs) -> Vec<Vec<NodeId>> {
     let strips = structure.strips();
     let mut through = vec![Vec::new(); structure.nodes().len()];
     for (index, strip) in strips.iter().enumerate() {
@@ -49,7 +50,7 @@ pub(crate) fn opened(structure: &Structure, hubs: &Hubs) -> Vec<Vec<usize>> {
 }
 
 /// Whether a strip does not end at one of its nodes.
-fn runs_through(strip: &Strip, node: usize) -> bool {
+fn runs_through(strip: &Strip, node: NodeId) -> bool {
     let ends = [strip.nodes.first(), strip.nodes.last()];
     strip.closed || !ends.contains(&Some(&node))
 }

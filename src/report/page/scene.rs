@@ -2,6 +2,7 @@
 
 use crate::fabrication::Fabrication;
 use crate::geometry::{Point3, Vector3};
+use crate::ids::{FinId, NodeId};
 use crate::joint::Joint;
 use crate::parts::{Body, bends};
 use crate::report::{fins, steps};
@@ -28,13 +29,13 @@ pub(super) fn scene(
     let bodies = bodies(structure, joint);
     let fins = structure.fins().iter().zip(&bodies).map(|(&fin, body)| {
         let part = parts.get(&fin).copied();
-        rows.fin(fin, *body, part.map(|part| (part, places[part])))
+        rows.fin(fin.ends(), *body, part.map(|part| (part, places[part])))
     });
     let sheets = fins::sheets(job);
     let part =
         |&index: &usize| json!({"id": job.parts[index].id, "sheet": sheets.get(&index)});
     let plates = job.parts.iter().enumerate().flat_map(|(index, part)| {
-        let node = part.body.nodes().first().copied().unwrap_or_default();
+        let node = part.body.nodes().first().map_or(0, |node| node.index());
         let place = places[index];
         fins::plates(structure, part).into_iter().map(move |corners| {
             let head = [json!(place), json!(node)];
@@ -70,8 +71,8 @@ fn order(job: &Fabrication, template: &Template) -> Vec<usize> {
 }
 
 /// The largest discrepancy of each body at each node.
-fn discrepancies(paper: &Paper) -> BTreeMap<(usize, usize), f64> {
-    let mut all: BTreeMap<(usize, usize), f64> = BTreeMap::new();
+fn discrepancies(paper: &Paper) -> BTreeMap<(NodeId, usize), f64> {
+    let mut all: BTreeMap<(NodeId, usize), f64> = BTreeMap::new();
     for d in &paper.discrepancies {
         for body in d.bodies {
             let most = all.entry((d.node, body)).or_default();
@@ -82,7 +83,7 @@ fn discrepancies(paper: &Paper) -> BTreeMap<(usize, usize), f64> {
 }
 
 /// Thickness over bend radius by part and node.
-fn tightness(job: &Fabrication, template: &Template) -> BTreeMap<(usize, usize), f64> {
+fn tightness(job: &Fabrication, template: &Template) -> BTreeMap<(usize, NodeId), f64> {
     let mut all = BTreeMap::new();
     for (index, part) in job.parts.iter().enumerate() {
         let Body::Strip(body) = &part.body else { continue };
@@ -99,7 +100,7 @@ fn bodies(structure: &Structure, joint: Joint) -> Vec<Option<usize>> {
     }
     let mut of = BTreeMap::new();
     for (index, strip) in structure.strips().iter().enumerate() {
-        of.extend(strip.fins().map(|[i, j]| ([i.min(j), i.max(j)], index)));
+        of.extend(strip.steps().map(|step| (FinId::from(step), index)));
     }
     structure.fins().iter().map(|fin| of.get(fin).copied()).collect()
 }
@@ -108,8 +109,8 @@ struct Rows<'a> {
     structure: &'a Structure,
     paper: Option<&'a Paper>,
     /// Largest discrepancy by node and body.
-    gaps: Option<BTreeMap<(usize, usize), f64>>,
-    bends: BTreeMap<(usize, usize), f64>,
+    gaps: Option<BTreeMap<(NodeId, usize), f64>>,
+    bends: BTreeMap<(usize, NodeId), f64>,
 }
 
 impl Rows<'_> {
@@ -117,7 +118,7 @@ impl Rows<'_> {
     /// the part is given by its index and its place in the order of assembly.
     fn fin(
         &self,
-        [i, j]: [usize; 2],
+        [i, j]: [NodeId; 2],
         body: Option<usize>,
         part: Option<(usize, usize)>,
     ) -> Value {
@@ -154,8 +155,8 @@ impl Rows<'_> {
             let spin = Vector3::new(x[0], x[1], x[2]);
             spin.cross(&(p.coords * paper.scale)) + Vector3::new(x[3], x[4], x[5])
         };
-        let corners = self.structure.fins().iter().zip(bodies).map(|(&[i, j], body)| {
-            let [a, b] = [i, j].map(|node| &self.structure.nodes()[node]);
+        let corners = self.structure.fins().iter().zip(bodies).map(|(fin, body)| {
+            let [a, b] = fin.ends().map(|node| &self.structure.nodes()[node]);
             let corners = [a.bottom(), a.top(), b.bottom(), b.top()];
             corners.map(|p| body.map_or_else(Vector3::zeros, |body| velocity(body, p)))
         });

@@ -164,7 +164,7 @@ pub(super) fn parts(page: &Page) -> String {
     let row = |(index, part): (usize, &crate::parts::Part)| {
         let cut: f64 = part.region.contours().map(Contour::length).sum();
         let [length, height] = part.extent();
-        let nodes = part.body.nodes().iter().map(usize::to_string).collect::<Vec<_>>();
+        let nodes = part.body.nodes().iter().map(ToString::to_string).collect::<Vec<_>>();
         vec![
             html::part(&part.id),
             format!("{length:.1}"),
@@ -191,8 +191,9 @@ pub(super) fn slits(page: &Page) -> String {
     for part in &page.job.parts {
         let Body::Strip(body) = &part.body else { continue };
         for (slit, partner) in &body.slits {
-            let drawn =
-                measured.iter().find(|s| s.part == part.id && s.node == slit.node);
+            let drawn = measured
+                .iter()
+                .find(|s| s.part == part.id && s.node == slit.node.index());
             rows.push(vec![
                 html::part(&part.id),
                 slit.node.to_string(),

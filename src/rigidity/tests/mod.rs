@@ -5,6 +5,7 @@ mod nets;
 
 use super::*;
 use crate::geometry::{Point3, Vector3};
+use crate::ids::NodeId;
 use crate::rigidity::amplify::{Bracketing, Load};
 use crate::rigidity::compliance::compliances;
 use crate::rigidity::mobility::mobility;
@@ -257,7 +258,7 @@ fn greedy_welds_are_as_few_as_the_mobility() {
 #[test]
 fn stiff_joints_help_most_where_supports_are_few() {
     let n = 12;
-    let one_side = (0..n).fold(torus(n, false), Model::with_held);
+    let one_side = (0..n).map(NodeId::new).fold(torus(n, false), Model::with_held);
     let times = |model: &Model| {
         let verdict =
             judge(model, &criteria(), Fingerprint::of_nothing(), &mut ()).unwrap();

@@ -1,6 +1,7 @@
 //! Nets of nodes with axes, as hinged fins or rigid strips.
 
 use crate::geometry::{Point3, Vector3, trig};
+use crate::ids::{FinId, StripId};
 use crate::rigidity::{Coupling, Model, RigidBody};
 
 /// A patch of a torus (radii 3 and 1, its outer side) with its normals, as hinged fins or
@@ -47,19 +48,20 @@ fn grid_by(
                 let at = j * n + i;
                 on[at].push(bodies.len());
                 on[at + step].push(bodies.len());
-                bodies.push(RigidBody::Fin([at, at + step]));
+                bodies
+                    .push(RigidBody::Fin(FinId::between(at.into(), (at + step).into())));
             }
         }
     }
     if strips {
-        bodies = (0..n + m).map(RigidBody::Strip).collect();
+        bodies = (0..n + m).map(StripId::new).map(RigidBody::Strip).collect();
     }
     let couplings = on.into_iter().enumerate().map(|(node, mut bodies)| {
         let (p, a) = place(node % n, node / n);
         let half = a.normalize() * 0.1;
         bodies.sort_unstable();
         let points = vec![p - half, p + half];
-        Coupling { node, points, bodies, held: false, share: 0.5 }
+        Coupling { node: node.into(), points, bodies, held: false, share: 0.5 }
     });
     Model::new(bodies, couplings.collect())
 }
@@ -131,7 +133,7 @@ pub(super) fn combescure(n: usize, strips: bool) -> Model {
 
 pub(super) fn held_all_round(mut model: Model, n: usize) -> Model {
     for coupling in &mut model.couplings {
-        let (i, j) = (coupling.node % n, coupling.node / n);
+        let (i, j) = (coupling.node.index() % n, coupling.node.index() / n);
         coupling.held = i == 0 || j == 0 || i + 1 == n || j + 1 == n;
     }
     model
