@@ -6,7 +6,7 @@ use crate::cli::input::{self, InputError};
 use crate::cli::jobdir::JobDirError;
 use crate::cli::outcome::{End, Failure, print};
 use crate::design::planarise::{
-    Options, PictureError, PlanariseError, Planarised, Step, picture, planarise,
+    Iteration, Options, PictureError, PlanariseError, Planarised, picture, planarise,
     smoothed_axes,
 };
 use crate::diagnostic::Finding;
@@ -146,7 +146,7 @@ fn to_disk(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
 }
 
 fn report(result: &Planarised, findings: &[Finding]) -> serde_json::Value {
-    let step = |step: &Step| {
+    let step = |step: &Iteration| {
         serde_json::json!({
             "polish": step.polish,
             "planarity_weight": step.weight,

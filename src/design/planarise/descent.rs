@@ -34,7 +34,7 @@ const POLISH_STEPS: usize = 12;
 
 /// A step of the search.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Step {
+pub struct Iteration {
     /// Whether planarity alone counted.
     pub polish: bool,
     /// How much planarity weighed.
@@ -52,7 +52,7 @@ pub struct Step {
 /// Where the search ended.
 pub(super) struct Found {
     pub state: State,
-    pub history: Vec<Step>,
+    pub history: Vec<Iteration>,
 }
 
 /// Why the search did not end.
@@ -86,7 +86,7 @@ struct Search<'a> {
     /// By how much damping grows if the next step fails.
     stiffen: f64,
     polish: bool,
-    history: Vec<Step>,
+    history: Vec<Iteration>,
     most: usize,
     watch: &'a mut dyn Watch,
 }
@@ -199,7 +199,7 @@ impl Search<'_> {
                 .sum();
             let next = next.filter(|next| next.energy < from.energy);
             let reached = next.as_ref().unwrap_or(from);
-            self.history.push(Step {
+            self.history.push(Iteration {
                 polish: self.polish,
                 weight: self.energy.planarity.weight,
                 energy: reached.energy,

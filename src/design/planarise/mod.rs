@@ -20,7 +20,7 @@ mod setup;
 mod surface;
 mod terms;
 
-pub use descent::Step;
+pub use descent::Iteration;
 pub use figures::{Figures, Spread};
 pub use finding::{DesignFinding, Reason};
 pub use needed::planarised_if_needed;
@@ -45,7 +45,7 @@ pub struct Planarised {
     /// What was reached, and at what price.
     pub figures: Figures,
     /// Every system that was solved.
-    pub history: Vec<Step>,
+    pub history: Vec<Iteration>,
     /// What could not be reached, and what has to be looked at.
     pub findings: Vec<Finding>,
 }
