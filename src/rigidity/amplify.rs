@@ -1,11 +1,11 @@
 //! How far a node can sway for a play, bracketed from both sides.
 //!
-//! Every point of a contact may leave its pin by the play `p`, in any direction. The sway of
-//! a node along `d` is then `α p`, where
+//! Every point of a contact may leave its pin by the play `p`, in any direction. The sway
+//! of a node along `d` is then `α p`, where
 //!
 //! * any motion gives a lower bound of α: the node's way over the largest deviation;
 //! * any contact forces in equilibrium with a unit load on the node along `d` give an upper
-//!   bound: the sum of their sizes (conic duality; notes §3.3).
+//!   bound: the sum of their sizes (conic duality; docs/formulas.md 1.6).
 //!
 //! One solve with the factor of the resistance gives both. Reweighting the contacts by
 //! their forces and solving again (IRLS) draws the bounds together.

@@ -7,8 +7,8 @@ use crate::watch::Watch;
 use faer::MatRef;
 use nalgebra::{Matrix3, Matrix3x6, Matrix6};
 
-/// Compliance of every free pin's node, the 3 × 3 block of `K⁻¹` seen from there: coupling and
-/// block. On a whole that floats, of loads and motions without their rigid part.
+/// Compliance of every free pin's node, the 3 × 3 block of `K⁻¹` seen from there: coupling
+/// and block. On a whole that floats, of loads and motions without their rigid part.
 ///
 /// # Errors
 /// [`Halt::Stopped`].

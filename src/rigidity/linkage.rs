@@ -1,4 +1,4 @@
-//! General linkages as JSON: bodies and pins without a structure (contract §4).
+//! General linkages as JSON: bodies and pins without a structure.
 
 use crate::geometry::{Point3, Vector3};
 use crate::rigidity::finding::RigidityFinding;

@@ -92,8 +92,9 @@ impl Model {
         Self { bodies, couplings, incidence }
     }
 
-    /// A structure of strips. `unheld` are ends, as strip and node, that nothing holds; they
-    /// count as no incidence. On the nodes that `moment_arms` names all strips end in a hub.
+    /// A structure of strips. `unheld` are ends, as strip and node, that nothing holds;
+    /// they count as no incidence. On the nodes that `moment_arms` names all strips end in
+    /// a hub.
     pub fn of_strips(
         structure: &Structure,
         unheld: &BTreeSet<(StripId, NodeId)>,
@@ -107,15 +108,15 @@ impl Model {
     }
 
     /// A structure of single fins: in hubs on the nodes that `moment_arms` names, on rods
-    /// elsewhere. A moment_arm, mm, is how far from the axis the slot holds its fin; it is never
-    /// taken for more than a third of the fin.
+    /// elsewhere. A moment arm, mm, is how far from the axis the slot holds its fin; it is
+    /// never taken for more than a third of the fin.
     pub fn of_fins(structure: &Structure, moment_arms: &BTreeMap<NodeId, f64>) -> Self {
         let fins = structure.fins().iter().enumerate().map(|(index, fin)| (*fin, index));
         let (bodies, on) = self::fins(structure);
         Self::in_hubs(structure, bodies, on, &fins.collect(), moment_arms)
     }
 
-    /// Bodies of which each carries some fins, in hubs on the nodes that have moment_arms.
+    /// Bodies of which each carries some fins, in hubs on the nodes that have moment arms.
     fn in_hubs(
         structure: &Structure,
         mut bodies: Vec<RigidBody>,
@@ -183,8 +184,8 @@ impl Model {
             .position(|coupling| coupling.is_pin() && coupling.node == node)
     }
 
-    /// The same with two bodies of a pin made one as far as turning about its axis goes, by a
-    /// slot that both share.
+    /// The same with two bodies of a pin made one as far as turning about its axis goes,
+    /// by a slot that both share.
     #[must_use]
     pub fn welded(mut self, pin: usize, bodies: [usize; 2]) -> Self {
         let slot = self.couplings[pin].slot_of(bodies.to_vec());

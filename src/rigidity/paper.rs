@@ -5,7 +5,7 @@
 //! vector of the smallest singular value is the motion that the hinges resist least, and
 //! the *discrepancy* of a hinge is how far two bodies part there while the far node moves
 //! by 1. Depends on units and on the held body, so that it is shown and not judged by
-//! (notes §1.4, §3.1).
+//! (docs/formulas.md 1.1, 1.4).
 
 use crate::geometry::{Point3, Vector3};
 use crate::ids::NodeId;

@@ -2,7 +2,8 @@
 //!
 //! Greedy, as bracing a grid is a matroid: each step takes the pair of bodies whose turn
 //! against each other counts most in the motions that meet no resistance, or, when there
-//! are none, in the least resisted ones weighted by their compliance (notes §3.5).
+//! are none, in the least resisted ones weighted by their compliance (docs/formulas.md
+//! 1.8).
 
 use crate::geometry::Vector3;
 use crate::ids::NodeId;

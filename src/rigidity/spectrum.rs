@@ -1,8 +1,9 @@
 //! The motions that meet least resistance.
 //!
 //! `K y = λ D y`: the root of λ is the rms deviation of contacts from their pins over the
-//! rms motion of the pins, free of units and origin (notes §1.3, §3.2). All figures come
-//! from residuals `(I - QQᵀ) y`, never from `yᵀ K y`, which loses half the digits.
+//! rms motion of the pins, free of units and origin (docs/formulas.md 1.3, 1.4). All
+//! figures come from residuals `(I - QQᵀ) y`, never from `yᵀ K y`, which loses half the
+//! digits.
 
 use crate::geometry::Vector3;
 use crate::rigidity::model::Coupling;

@@ -51,8 +51,8 @@ impl<'a> Stiffness<'a> {
         Factor::new(&self.system.symbolic, self, self.system.threads)
     }
 
-    /// How far each contact leaves its pin when bodies follow the heavier contacts more, three
-    /// numbers per contact.
+    /// How far each contact leaves its pin when bodies follow the heavier contacts more,
+    /// three numbers per contact.
     pub(super) fn deviations(&self, y: &[f64]) -> Vec<f64> {
         let system = self.system;
         let some = |part: Range<usize>| {
@@ -141,8 +141,8 @@ impl<'a> Stiffness<'a> {
         }
     }
 
-    /// The block between a coupling and a body that keeps its motion, `-S Q`; transposed if the
-    /// coupling is eliminated first.
+    /// The block between a coupling and a body that keeps its motion, `-S Q`; transposed
+    /// if the coupling is eliminated first.
     fn link(&self, body: usize, coupling: Span, own: usize, block: &mut [f64]) {
         let motions = self.motions(body);
         let entry = |r: usize, k: usize| {

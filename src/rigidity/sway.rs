@@ -136,8 +136,9 @@ pub(super) fn worst(
 }
 
 /// Sway over play at the same node and direction with all bodies of each pin joined by a
-/// moment_arm of half the pin's length, to compare (notes §3.4). On a whole that floats the best
-/// fit counts the ends of these moment_arms too. `None` for what is too large to compare.
+/// moment arm of half the pin's length, to compare (docs/formulas.md 1.7). On a whole that
+/// floats the best fit counts the ends of these moment arms too. `None` for what is too
+/// large to compare.
 ///
 /// # Errors
 /// [`Halt`] if a factorisation fails or the watch stops it.

@@ -2,9 +2,10 @@
 //!
 //! Unknowns are the velocities `y` of the points of all couplings that the ground does not
 //! hold. A body answers with its best rigid motion, so that it resists by
-//! `yᵀ S (I - Q Qᵀ) S y`, `Q` its motions and `S` the roots of the weights of its contacts:
-//! the *pin form* `K` (notes §1.3). A body on many couplings keeps its motion as six unknowns
-//! of its own; eliminating the couplings first is then the *body form*.
+//! `yᵀ S (I - Q Qᵀ) S y`, `Q` its motions and `S` the roots of the weights of its
+//! contacts: the *pin form* `K` (docs/formulas.md 1.3). A body on many couplings keeps its
+//! motion as six unknowns of its own; eliminating the couplings first is then the *body
+//! form*.
 
 use crate::geometry::Point3;
 use crate::rigidity::model::Model;
@@ -36,7 +37,8 @@ pub(super) struct System<'a> {
     pub(super) symbolic: Symbolic,
     /// By supernode, what bodies add there.
     pub(super) contributions: Vec<Vec<Contribution>>,
-    /// By body, the first of its contacts (one per coupling and point); one more at the end.
+    /// By body, the first of its contacts (one per coupling and point); one more at the
+    /// end.
     pub(super) first_contact: Vec<usize>,
     /// Whether the six rigid motions of the whole are free.
     pub(super) floats: bool,
@@ -64,7 +66,8 @@ pub(super) enum Contribution {
 }
 
 impl<'a> System<'a> {
-    /// Sets the unknowns of a model up; `fixed` is a body to hold beside its held couplings.
+    /// Sets the unknowns of a model up; `fixed` is a body to hold beside its held
+    /// couplings.
     pub(super) fn new(model: &'a Model, fixed: Option<usize>, threads: usize) -> Self {
         let motions = motions(model, fixed, threads);
         let rows = |body: usize| motions[body].rows;

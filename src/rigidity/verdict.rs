@@ -27,7 +27,8 @@ const LEAST_MODES: usize = 8;
 pub struct Fingerprint(String);
 
 impl Fingerprint {
-    /// Of a structure as built, its joint, the text of the template and the nodes with hubs.
+    /// Of a structure as built, its joint, the text of the template and the nodes with
+    /// hubs.
     pub fn of(
         structure: &Structure,
         joint: Joint,

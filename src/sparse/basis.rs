@@ -94,8 +94,8 @@ impl Basis {
         let mut made = Block::zeros(rows, of.ncols());
         let coefficients = -of;
         self.each_piece(&mut made, |mut piece| {
-            // A page that is read before it is written is touched twice, and the second time
-            // stops the other thread.
+            // A page that is read before it is written is touched twice, and the second
+            // time stops the other thread.
             piece.values.fill(0.0);
             piece.take(parts, coefficients.as_ref());
         });

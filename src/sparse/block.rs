@@ -94,7 +94,8 @@ impl Block {
     }
 }
 
-/// Takes from each column of `block` its share in each orthonormal part; returns the shares.
+/// Takes from each column of `block` its share in each orthonormal part; returns the
+/// shares.
 pub(crate) fn project_out(basis: &[Block], block: &mut Block) -> Mat<f64> {
     let rows = basis.iter().map(|part| part.columns).sum();
     let mut all = Mat::zeros(rows, block.columns);

@@ -23,7 +23,8 @@ pub(crate) struct Factor<'a> {
     pub(crate) subtrees: Vec<usize>,
     /// Supernodes above all these subtrees, children first.
     pub(crate) top: Vec<usize>,
-    /// Per subtree, then of the top, a segment: the columns of its supernodes one after another.
+    /// Per subtree, then of the top, a segment: the columns of its supernodes one after
+    /// another.
     storage: Vec<Vec<f64>>,
     /// Per supernode the segment of storage, and where in it its columns begin.
     offsets: Vec<(u32, usize)>,

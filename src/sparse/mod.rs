@@ -1,14 +1,14 @@
 //! Sparse symmetric systems: order of elimination, factor, solves, eigenvalues.
 //!
-//! In: a [`SymmetricMatrix`]. Out: a [`Cholesky`] factor, whose pattern is analysed once and
-//! which takes any number of matrices and right-hand sides, on one thread. A complex system
-//! is a real one with two unknowns, `re` and `im`, for each.
+//! In: a [`SymmetricMatrix`]. Out: a [`Cholesky`] factor, whose pattern is analysed once
+//! and which takes any number of matrices and right-hand sides, on one thread. A complex
+//! system is a real one with two unknowns, `re` and `im`, for each.
 //!
 //! Where one large matrix meets many right-hand sides (`rigidity`), its unknowns come in
 //! *groups* that are eliminated together, such as the six of a pin, its blocks from
 //! `Entries`; `Factor` works on all threads, solves for eight right-hand sides at once and
-//! gives blocks of its inverse, and `largest` finds eigenvectors of what can be applied to a
-//! `Block`. One `Symbolic` serves any number of factors. Why both:
+//! gives blocks of its inverse, and `largest` finds eigenvectors of what can be applied to
+//! a `Block`. One `Symbolic` serves any number of factors. Why both:
 //! docs/decisions/0016-own-multifrontal-factor.md.
 //!
 //! The room knows nothing of bodies, meshes or energies.

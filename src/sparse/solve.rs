@@ -7,8 +7,8 @@ use crate::sparse::symbolic::{Supernode, Symbolic};
 use std::ops::Range;
 
 impl Factor<'_> {
-    /// Solves for `count` right-hand sides, which lie row by row in `x`, `count` numbers per
-    /// unknown; `x` receives the solutions.
+    /// Solves for `count` right-hand sides, which lie row by row in `x`, `count` numbers
+    /// per unknown; `x` receives the solutions.
     pub(crate) fn solve(&self, x: &mut [f64], count: usize) {
         if let (RHS, (rows, [])) = (count, x.as_chunks_mut()) {
             self.solve_rows(rows);
@@ -78,8 +78,8 @@ impl Factor<'_> {
         nodes().flat_map(at).zip(part.beyond).for_each(|(row, solved)| x[row] = solved);
     }
 
-    /// Runs `task` on the part of `x` that belongs to each subtree; returns what each leaves
-    /// for the unknowns beyond it.
+    /// Runs `task` on the part of `x` that belongs to each subtree; returns what each
+    /// leaves for the unknowns beyond it.
     fn each_subtree(
         &self,
         x: &mut [Row],

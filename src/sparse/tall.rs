@@ -1,4 +1,5 @@
-//! TransposedProduct of pieces of blocks with eight columns, in plain loops on wide vectors.
+//! TransposedProduct of pieces of blocks with eight columns, in plain loops on wide
+//! vectors.
 //!
 //! Such pieces are long and narrow; products made for square matrices take twice as
 //! long.

@@ -2,7 +2,7 @@
 
 use serde::{Serialize, Serializer};
 
-/// Planarity of many fins, each as a share of its diameter (contract §2). Written in
+/// Planarity of many fins, each as a share of its diameter (docs/formulas.md 3). Written in
 /// percent.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Spread {
