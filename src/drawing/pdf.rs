@@ -1,13 +1,15 @@
 //! PDF: the paths of each page with their layers (optional content, ISO 32000-1 §8.11).
 //!
-//! `lopdf` reads objects and streams; of the content only paths, their colour and the
-//! matrix are followed.
+//! `hayro-syntax` reads objects and streams; of the content only paths, their colour and
+//! the matrix are followed.
 
 use crate::drawing::{Curve, Drawing, DrawingError, Pen, chain, is_cut};
 use crate::drawing::{KnownLayer, layer_coloured, layer_named};
-use crate::geometry::{Point2, Vertex};
-use lopdf::content::{Content, Operation};
-use lopdf::{Document, Object, ObjectId};
+use crate::geometry::{Point2, Vector2, Vertex};
+use hayro_syntax::content::Instruction;
+use hayro_syntax::object::{self, Dict, Name, Object};
+use hayro_syntax::page::Page;
+use hayro_syntax::{LoadPdfError, Pdf};
 use nalgebra::Matrix3;
 
 const MM_PER_POINT: f64 = 25.4 / 72.0;
@@ -15,68 +17,60 @@ const MM_PER_POINT: f64 = 25.4 / 72.0;
 /// Reads the lines of each page, in millimetres.
 ///
 /// # Errors
-/// [`DrawingError`] if the bytes are no PDF.
+/// [`DrawingError`] if the bytes are no PDF, or one that asks for a password.
 pub fn read_pdf(
     bytes: &[u8],
     known: &[KnownLayer],
 ) -> Result<Vec<Drawing>, DrawingError> {
-    let other = |error: lopdf::Error| DrawingError::Other { message: error.to_string() };
-    let document = Document::load_mem(bytes).map_err(other)?;
-    let pages = document.get_pages();
-    pages.values().map(|&page| drawing(&document, page, known).map_err(other)).collect()
+    let pdf = Pdf::new(bytes.to_vec()).map_err(|error| {
+        let message = match error {
+            LoadPdfError::Decryption(_) => "the PDF is encrypted",
+            LoadPdfError::Invalid => "this is no PDF",
+        };
+        DrawingError::Other { message: message.to_owned() }
+    })?;
+    Ok(pdf.pages().iter().map(|page| drawing(page, known)).collect())
 }
 
-fn drawing(
-    document: &Document,
-    page: ObjectId,
-    known: &[KnownLayer],
-) -> Result<Drawing, lopdf::Error> {
-    let content = Content::decode(&document.get_page_content(page))?;
-    let origin = media_box(document, page).unwrap_or_default();
+fn drawing(page: &Page, known: &[KnownLayer]) -> Drawing {
+    let corner = page.media_box();
     let scale = Matrix3::new_scaling(MM_PER_POINT);
-    let shift = nalgebra::Vector2::new(-origin[0], -origin[1]);
+    let shift = Vector2::new(-corner.x0, -corner.y0);
     let matrix = scale * Matrix3::new_translation(&shift);
     let mut reader = Reader {
         known,
-        layers: layers(document, page, known),
+        layers: layers(page, known),
         drawing: Drawing { says_unit: true, ..Drawing::default() },
         state: State { matrix, colour: "" },
         saved: Vec::new(),
         marked: Vec::new(),
         pen: Pen::default(),
     };
-    for operation in &content.operations {
-        reader.follow(operation);
+    let mut operations = page.operations();
+    while let Some(operation) = operations.next() {
+        reader.follow(&operation);
     }
-    Ok(chain::joined(reader.drawing, is_cut))
-}
-
-fn media_box(document: &Document, page: ObjectId) -> Option<[f64; 2]> {
-    let corners =
-        document.get_dictionary(page).ok()?.get_deref(b"MediaBox", document).ok()?;
-    let number =
-        |k: usize| Some(f64::from(corners.as_array().ok()?.get(k)?.as_float().ok()?));
-    Some([number(0)?, number(1)?])
+    chain::joined(reader.drawing, is_cut)
 }
 
 /// The names by which the page calls our layers.
-fn layers(
-    document: &Document,
-    page: ObjectId,
-    known: &[KnownLayer],
-) -> Vec<(Vec<u8>, &'static str)> {
-    let properties = || {
-        let page = document.get_dictionary(page).ok()?;
-        let resources = page.get_deref(b"Resources", document).ok()?.as_dict().ok()?;
-        resources.get_deref(b"Properties", document).ok()?.as_dict().ok()
+fn layers(page: &Page, known: &[KnownLayer]) -> Vec<(Vec<u8>, &'static str)> {
+    let properties = &page.resources().properties;
+    let layer = |key: Name| {
+        let group = properties.get::<Dict>(&key)?;
+        let name = group.get::<object::String>(b"Name")?;
+        let layer = layer_named(known, &String::from_utf8_lossy(name.as_bytes()))?;
+        Some((key.to_vec(), layer))
     };
-    let named = properties().into_iter().flat_map(|names| names.iter());
-    let layer = |(key, value): (&Vec<u8>, &Object)| {
-        let group = document.dereference(value).ok()?.1.as_dict().ok()?;
-        let name = group.get(b"Name").ok()?.as_str().ok()?;
-        Some((key.clone(), layer_named(known, &String::from_utf8_lossy(name))?))
-    };
-    named.filter_map(layer).collect()
+    properties.keys().filter_map(layer).collect()
+}
+
+/// Numbers have single precision, as in most programs that draw them.
+fn number(operand: &Object) -> f64 {
+    match operand {
+        Object::Number(number) => f64::from(number.as_f32()),
+        _ => 0.0,
+    }
 }
 
 #[derive(Clone, Copy)]
@@ -98,15 +92,14 @@ struct Reader<'a> {
 }
 
 impl Reader<'_> {
-    fn follow(&mut self, operation: &Operation) {
-        let number = |k: usize| {
-            let operand = operation.operands.get(k).and_then(|o| o.as_float().ok());
-            operand.map_or(0.0, f64::from)
-        };
+    fn follow(&mut self, operation: &Instruction) {
+        let numbers: Vec<f64> = operation.operands().map(number).collect();
+        let number = |k: usize| numbers.get(k).copied().unwrap_or(0.0);
+        let operator = str::from_utf8(operation.operator).unwrap_or_default();
         let matrix = self.state.matrix;
         let at =
             |k: usize| matrix.transform_point(&Point2::new(number(k), number(k + 1)));
-        match operation.operator.as_str() {
+        match operator {
             "q" => self.saved.push(self.state),
             "Q" => self.state = self.saved.pop().unwrap_or(self.state),
             "cm" => {
@@ -143,16 +136,17 @@ impl Reader<'_> {
             "n" | "f" | "F" | "f*" => self.pen = Pen::default(),
             "Do" | "Tj" | "TJ" => {
                 let layer = self.current_layer();
-                let kind = operation.operator.clone();
+                let kind = operator.to_owned();
                 *self.drawing.unread.entry((kind, layer)).or_default() += 1;
             }
             _ => {}
         }
     }
 
-    fn layer(&self, operation: &Operation) -> Option<&'static str> {
-        let Some(Object::Name(name)) = operation.operands.get(1) else { return None };
-        self.layers.iter().find(|(key, _)| key == name).map(|(_, layer)| *layer)
+    fn layer(&self, operation: &Instruction) -> Option<&'static str> {
+        let Some(Object::Name(name)) = operation.operands().nth(1) else { return None };
+        let called = |(key, _): &&(Vec<u8>, _)| key.as_slice() == name.as_ref();
+        self.layers.iter().find(called).map(|(_, layer)| *layer)
     }
 
     fn current_layer(&self) -> &'static str {
