@@ -69,7 +69,9 @@ impl Settings {
 
     /// Of a structure made with these settings.
     pub fn fingerprint(&self, structure: &Structure) -> Fingerprint {
-        Fingerprint::of(structure, self.joint, &self.template.source, &self.hub_nodes)
+        let mut asked = self.hub_nodes.clone();
+        asked.retain(|node| !self.template.joint.hub_nodes.contains(node));
+        Fingerprint::of(structure, self.joint, &self.template.source, &asked)
     }
 
     /// What is written around each sheet of a job of this name, if anything is.

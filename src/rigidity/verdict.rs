@@ -27,8 +27,8 @@ const LEAST_MODES: usize = 8;
 pub struct Fingerprint(String);
 
 impl Fingerprint {
-    /// Of a structure as built, its joint, the text of the template and the nodes with
-    /// hubs.
+    /// Of a structure as built, its joint, the text of the template and the nodes with hubs
+    /// that the text does not name.
     pub fn of(
         structure: &Structure,
         joint: Joint,
@@ -36,8 +36,9 @@ impl Fingerprint {
         hub_nodes: &[NodeId],
     ) -> Self {
         let (structure, hubs) = (write_json(structure), format!("{hub_nodes:?}"));
+        let hubs = (!hub_nodes.is_empty()).then_some(hubs.as_str());
         let mut hash = Sha256::new();
-        for part in [structure.as_str(), joint.name(), template, &hubs] {
+        for part in [structure.as_str(), joint.name(), template].into_iter().chain(hubs) {
             hash.update((part.len() as u64).to_le_bytes());
             hash.update(part.as_bytes());
         }
