@@ -112,6 +112,9 @@ pub const STANDS_STILL: f64 = 1e-6;
 /// Figures of rigidity below this are rounding and are written as 0.
 pub const ROUNDING: f64 = 1e-13;
 
+/// Planes of a drawing that lean by less, as rise over run, are the drawing's own.
+pub const UPRIGHT: f64 = 1e-6;
+
 /// Ends of lines that count as joined when a drawing is read back, mm.
 pub const JOINED_MM: f64 = 0.01;
 

@@ -10,21 +10,21 @@ use crate::cli::nest_input::{self, Order, Task};
 use crate::cli::nest_progress::Progress;
 use crate::cli::outcome::{End, Failure, print};
 use crate::diagnostic::{Finding, Located, Severity};
-use crate::drawing::{Format, drawn_parts};
-use crate::export::{self, LAYERS, PngLook};
+use crate::export::{self, PngLook};
 use crate::gate::approve_loose;
 use crate::json;
 use crate::nest::{self, Effort, NestError, Shape, Solution, Stock};
 use crate::report::{Nested, free_maps, layout_json, layout_sheets};
 use crate::settings::Settings;
 use crate::watch::Watch;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// Runs the command.
 pub(super) fn run(args: &NestArgs, console: Console) -> Result<End, Failure> {
-    let name = args.input.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+    let first = &args.input[0];
+    let name = stem(first);
     if args.check {
-        let text = input::text_of(&args.input)?;
+        let text = input::text_of(first)?;
         let layout = nest_input::layout(&text, &name).map_err(Failure::of)?;
         return Ok(checked(&layout, console));
     }
@@ -48,28 +48,51 @@ pub(super) fn run(args: &NestArgs, console: Console) -> Result<End, Failure> {
     }
     console.say(&summary(&nested, args, &dir, watch.terminal.stopped()));
     // What was found so far is written all the same.
-    Ok(if watch.terminal.stopped() { End::Interrupted } else { End::Done })
+    Ok(match () {
+        () if watch.terminal.stopped() => End::Interrupted,
+        () if nested.unplaced.is_empty() => End::Done,
+        () => {
+            console.say(&unplaced(&order, nested.unplaced.len()));
+            End::Refused
+        }
+    })
 }
 
-/// The parts to nest, and what the drawing they come from did not say.
+fn stem(path: &Path) -> String {
+    path.file_stem().unwrap_or_default().to_string_lossy().into_owned()
+}
+
+/// The parts to nest, and what the drawings they come from did not say.
 fn order(args: &NestArgs, name: &str) -> Result<(Order, Vec<Finding>), Failure> {
-    let ending = args.input.extension().unwrap_or_default().to_string_lossy();
-    let format = match ending.to_lowercase().as_str() {
-        "dxf" => Format::Dxf,
-        "svg" => Format::Svg,
-        _ => {
-            let text = input::text_of(&args.input)?;
-            let order = nest_input::order(&text, name);
-            return Ok((order.map_err(Failure::of)?, Vec::new()));
-        }
+    let ending = |path: &Path| {
+        path.extension().unwrap_or_default().to_string_lossy().to_lowercase()
     };
-    let drawn = drawn_parts(
-        &input::bytes_of(&args.input)?,
-        format,
-        &LAYERS.map(|layer| layer.known()),
+    let is_drawing = |path: &PathBuf| ["dxf", "svg"].contains(&&*ending(path));
+    if !args.input.iter().all(is_drawing) {
+        nest_input::only(&args.input.iter().map(|path| stem(path)).collect::<Vec<_>>())
+            .map_err(Failure::of)?;
+        let order = nest_input::order(&input::text_of(&args.input[0])?, name);
+        return Ok((order.map_err(Failure::of)?, Vec::new()));
+    }
+    let mut drawings = Vec::new();
+    for path in &args.input {
+        let bytes = input::bytes_of(path)?;
+        let drawn = nest_drawing::read(&bytes, ending(path) == "dxf", &args.drawing);
+        drawings.push((stem(path), drawn.map_err(Failure::of)?));
+    }
+    nest_drawing::order(&drawings, &args.drawing).map_err(Failure::of)
+}
+
+/// How many sheets all parts would take, if there were as many as needed.
+fn unplaced(order: &Order, count: usize) -> String {
+    let endless = |stock: &Stock| Stock { count: None, ..stock.clone() };
+    let stock: Vec<Stock> = order.stock.iter().map(endless).collect();
+    let all =
+        nest::search(&order.shapes, &stock, &Effort { trials: 1, seed: 0 }, &mut ());
+    let sheets = all.map_or(0, |all| all.layout.sheets.len());
+    format!(
+        "{count} parts found no place; all that fit a sheet would take {sheets} sheet(s)"
     )
-    .map_err(Failure::of)?;
-    nest_drawing::order(&drawn, name).map_err(Failure::of)
 }
 
 /// What could not be placed is a warning: the rest can be cut.

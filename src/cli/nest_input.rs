@@ -204,6 +204,20 @@ pub(super) fn layout(text: &str, name: &str) -> Result<Order, NestInputError> {
     Ok(Order { name, task, lines, shapes, stock, holes_closed: false, layout })
 }
 
+/// Refuses JSON among several files.
+///
+/// # Errors
+/// [`NestInputError`] if there are several.
+pub(super) fn only(names: &[String]) -> Result<(), NestInputError> {
+    match names {
+        [_] => Ok(()),
+        _ => Err(NestInputError::Bad {
+            name: names.join(", "),
+            what: "several files must all be drawings (.dxf, .svg)".to_owned(),
+        }),
+    }
+}
+
 fn file(text: &str, name: &str) -> Result<File, NestInputError> {
     let file: File = serde_json::from_str(text)
         .map_err(|source| NestInputError::Json { name: name.to_owned(), source })?;

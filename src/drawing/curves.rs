@@ -1,4 +1,4 @@
-//! Ellipses and splines, drawn as cubic Bézier curves.
+//! Ellipses and elliptical arcs, drawn as cubic Bézier curves.
 
 use crate::drawing::Pen;
 use crate::geometry::{Point2, Segment, Vector2, trig};
@@ -21,7 +21,7 @@ impl Ellipse {
     }
 
     /// Draws on from where the pen is, at the angle `start` of the circle, by `sweep`.
-    fn draw_on(&self, pen: &mut Pen, start: f64, sweep: f64) {
+    pub(super) fn draw_on(&self, pen: &mut Pen, start: f64, sweep: f64) {
         let count = (sweep.abs() / TAU * PIECES).ceil().max(1.0);
         let step = sweep / count;
         let handle = 4.0 / 3.0 * trig::tan(step / 4.0);
@@ -95,57 +95,6 @@ pub(super) fn raised(from: Point2, handle: Point2, to: Point2) -> [Point2; 3] {
     [toward(from), toward(to), to]
 }
 
-/// Draws a B-spline of degree 1 to 3; false if it is none.
-pub(super) fn spline(
-    pen: &mut Pen,
-    degree: usize,
-    knots: &[f64],
-    points: &[Point2],
-) -> bool {
-    let fits = knots.len() == points.len() + degree + 1 && points.len() > degree;
-    if !(1..=3).contains(&degree) || !fits || !knots.is_sorted() {
-        return false;
-    }
-    let mut begun = false;
-    for span in degree..points.len() {
-        let (a, b) = (knots[span], knots[span + 1]);
-        if a >= b {
-            continue;
-        }
-        // The corner k of its Bézier curve takes the later knot k times.
-        let corner = |k: usize| {
-            blossom((degree, knots, points), span, |r| if r <= k { b } else { a })
-        };
-        if !std::mem::replace(&mut begun, true) {
-            pen.move_to(corner(0));
-        }
-        match degree {
-            1 => pen.line_to(corner(1), 0.0),
-            2 => pen.curve_to(raised(pen.at(), corner(1), corner(2))),
-            _ => pen.curve_to([corner(1), corner(2), corner(3)]),
-        }
-    }
-    pen.end();
-    true
-}
-
-/// De Boor's scheme with an argument of its own in each of its steps.
-fn blossom(
-    (degree, knots, points): (usize, &[f64], &[Point2]),
-    span: usize,
-    argument: impl Fn(usize) -> f64,
-) -> Point2 {
-    let mut row = points[span - degree..=span].to_vec();
-    for r in 1..=degree {
-        for j in (r..=degree).rev() {
-            let (low, high) = (knots[span - degree + j], knots[span + 1 + j - r]);
-            let share = (argument(r) - low) / (high - low);
-            row[j] = row[j - 1] + (row[j] - row[j - 1]) * share;
-        }
-    }
-    row[degree]
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -170,25 +119,6 @@ mod tests {
         arc_to(&mut pen, radii, (true, true), end);
         pen.close();
         assert!((area(pen) / (PI * 30.0 * 15.0) - 1.0).abs() < 1e-3);
-    }
-
-    #[test]
-    fn splines_of_each_degree_close_around_their_area() {
-        let ring = [(0.0, 0.0), (6.0, 0.0), (6.0, 6.0), (0.0, 6.0)];
-        let points: Vec<Point2> =
-            (0..7).map(|k| ring[k % 4]).map(|(x, y)| Point2::new(x, y)).collect();
-        // Closed uniform splines over a square of 6: areas by integration of the pieces.
-        for (degree, wanted) in [(1, 36.0), (2, 30.0), (3, 24.4)] {
-            let points = &points[..4 + degree];
-            let knots: Vec<f64> =
-                (0..points.len() + degree + 1).map(|k| k as f64).collect();
-            let mut pen = Pen::default();
-            assert!(spline(&mut pen, degree, &knots, points));
-            let area = area(pen);
-            assert!((area - wanted).abs() < 0.02, "degree {degree}: {area}");
-        }
-        assert!(!spline(&mut Pen::default(), 3, &[0.0, 1.0], &points));
-        assert!(!spline(&mut Pen::default(), 1, &[0.0, 2.0, 1.0, 3.0], &points[..2]));
     }
 
     #[test]

@@ -10,16 +10,19 @@ mod curves;
 mod dxf;
 mod parts;
 mod pdf;
+mod spline;
 mod svg;
+mod transform;
 
 use crate::geometry::{Contour, Point2, Vertex};
+use crate::tolerance::{ARC_SAGITTA_MM, NO_LENGTH_MM};
 use miette::Diagnostic;
 use std::collections::BTreeMap;
 use thiserror::Error;
 
 pub use chain::joined;
 pub use dxf::read_dxf;
-pub use parts::{Drawn, DrawnPart, Format, drawn_parts};
+pub use parts::{Drawn, DrawnPart, Gap, Purpose, Rules, drawn_parts};
 pub use pdf::read_pdf;
 pub use svg::read_svg;
 
@@ -55,11 +58,40 @@ pub struct KnownLayer {
     pub rgb: [u8; 3],
 }
 
+/// How a drawing is to be read.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Reading<'a> {
+    /// The layers to look for.
+    pub known: &'a [KnownLayer],
+    /// Millimetres in a unit of the drawing, whatever the file says.
+    pub millimetres: Option<f64>,
+    /// User units of SVG in an inch; 96 as in browsers.
+    pub dpi: f64,
+}
+
+impl<'a> Reading<'a> {
+    /// As the file says, looking for these layers.
+    pub const fn of(known: &'a [KnownLayer]) -> Self {
+        Self { known, millimetres: None, dpi: 96.0 }
+    }
+}
+
+/// Where a line stands in the drawing, in the drawing's own words.
+#[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord, Default)]
+pub struct Source {
+    /// Name of its layer or labelled group; empty if there is none.
+    pub name: String,
+    /// Colour of its stroke, or else of its fill.
+    pub rgb: Option<[u8; 3]>,
+}
+
 /// A line on a layer, mm, y up.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Curve {
     /// Name of the known layer; empty if it is on none.
     pub layer: &'static str,
+    /// Its own layer and colour.
+    pub source: Source,
     /// Its corners.
     pub vertices: Vec<Vertex>,
     /// Whether the last corner leads back to the first.
@@ -88,6 +120,11 @@ pub struct Drawing {
     pub doubled: Vec<Curve>,
     /// What could not be read as lines, by kind and layer, with its count.
     pub unread: BTreeMap<(String, &'static str), usize>,
+    /// Lines on what is switched off, by the name of their layer, with their count; they
+    /// are not among the curves.
+    pub hidden: BTreeMap<String, usize>,
+    /// Lines in paper space; they are not among the curves.
+    pub paper: usize,
     /// Whether the file says in which unit it is.
     pub says_unit: bool,
 }
@@ -109,13 +146,24 @@ pub fn is_cut(layer: &str) -> bool {
 }
 
 /// A pen that collects curves as drawing programs describe them.
-#[derive(Default)]
 struct Pen {
+    /// How far curves may be off, in its units.
+    tolerance: f64,
     vertices: Vec<Vertex>,
     curves: Vec<(Vec<Vertex>, bool)>,
 }
 
+impl Default for Pen {
+    fn default() -> Self {
+        Self::with_tolerance(ARC_SAGITTA_MM)
+    }
+}
+
 impl Pen {
+    const fn with_tolerance(tolerance: f64) -> Self {
+        Self { tolerance, vertices: Vec::new(), curves: Vec::new() }
+    }
+
     fn at(&self) -> Point2 {
         self.vertices.last().map_or_else(Point2::origin, |vertex| vertex.point)
     }
@@ -138,7 +186,7 @@ impl Pen {
     }
 
     fn curve_to(&mut self, [a, b, to]: [Point2; 3]) {
-        for (point, bulge) in bezier::arcs([self.at(), a, b, to]) {
+        for (point, bulge) in bezier::arcs([self.at(), a, b, to], self.tolerance) {
             self.line_to(point, bulge);
         }
     }
@@ -146,7 +194,7 @@ impl Pen {
     /// Back to the start, where the pen stays.
     fn close(&mut self) {
         let start = self.start();
-        let back = |v: &Vertex| (v.point - start).norm() < crate::tolerance::NO_LENGTH_MM;
+        let back = |v: &Vertex| (v.point - start).norm() < NO_LENGTH_MM;
         if self.vertices.len() > 2 && self.vertices.last().is_some_and(back) {
             self.vertices.pop();
         }
@@ -158,7 +206,7 @@ impl Pen {
 
     /// Ends a line: closed if it has come back to its start.
     fn end(&mut self) {
-        let back = (self.at() - self.start()).norm() < crate::tolerance::NO_LENGTH_MM;
+        let back = (self.at() - self.start()).norm() < NO_LENGTH_MM;
         if self.vertices.len() > 2 && back { self.close() } else { self.lift() }
     }
 

@@ -4,8 +4,9 @@
 //! the matrix are followed.
 
 use crate::drawing::{Curve, Drawing, DrawingError, Pen, chain, is_cut};
-use crate::drawing::{KnownLayer, layer_coloured, layer_named};
+use crate::drawing::{KnownLayer, Reading, Source, layer_coloured, layer_named};
 use crate::geometry::{Point2, Vector2, Vertex};
+use crate::tolerance::JOINED_MM;
 use hayro_syntax::content::Instruction;
 use hayro_syntax::object::{self, Dict, Name, Object};
 use hayro_syntax::page::Page;
@@ -18,10 +19,7 @@ const MM_PER_POINT: f64 = 25.4 / 72.0;
 ///
 /// # Errors
 /// [`DrawingError`] if the bytes are no PDF, or one that asks for a password.
-pub fn read_pdf(
-    bytes: &[u8],
-    known: &[KnownLayer],
-) -> Result<Vec<Drawing>, DrawingError> {
+pub fn read_pdf(bytes: &[u8], reading: &Reading) -> Result<Vec<Drawing>, DrawingError> {
     let pdf = Pdf::new(bytes.to_vec()).map_err(|error| {
         let message = match error {
             LoadPdfError::Decryption(_) => "the PDF is encrypted",
@@ -29,7 +27,7 @@ pub fn read_pdf(
         };
         DrawingError::Other { message: message.to_owned() }
     })?;
-    Ok(pdf.pages().iter().map(|page| drawing(page, known)).collect())
+    Ok(pdf.pages().iter().map(|page| drawing(page, reading.known)).collect())
 }
 
 fn drawing(page: &Page, known: &[KnownLayer]) -> Drawing {
@@ -50,7 +48,7 @@ fn drawing(page: &Page, known: &[KnownLayer]) -> Drawing {
     while let Some(operation) = operations.next() {
         reader.follow(&operation);
     }
-    chain::joined(reader.drawing, is_cut)
+    chain::joined(reader.drawing, JOINED_MM, |c| is_cut(c.layer).then_some(c.layer))
 }
 
 /// The names by which the page calls our layers.
@@ -158,7 +156,12 @@ impl Reader<'_> {
         let layer = self.current_layer();
         self.pen.lift();
         let curves = std::mem::take(&mut self.pen).curves.into_iter();
-        let curves = curves.map(|(vertices, closed)| Curve { layer, vertices, closed });
+        let curves = curves.map(|(vertices, closed)| Curve {
+            layer,
+            source: Source::default(),
+            vertices,
+            closed,
+        });
         self.drawing.curves.extend(curves);
     }
 }

@@ -32,9 +32,9 @@ mod triangulation;
 pub use check::{Fault, check};
 pub use error::NestError;
 pub use leftover::leftovers;
-pub use outline::{outline_fault, without_loops};
+pub use outline::{outline_fault, stock_fault, without_loops};
 pub use rotation::fits;
-pub use stock::{Remnant, Stock, stock_fault};
+pub use stock::{Remnant, Stock};
 
 use crate::geometry::{Motion, Point2, Vector2};
 use crate::tolerance::{ROOM_MM, WRITTEN_MM};

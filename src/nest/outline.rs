@@ -7,7 +7,7 @@ use crate::geometry::predicates::{contains, in_segment, is_simple, segments_meet
 use crate::geometry::ring::area;
 use crate::geometry::{Point2, Rect};
 use crate::nest::triangulation::Triangulation;
-use crate::nest::{NestError, Shape};
+use crate::nest::{Layout, NestError, NestedSheet, Shape, Stock, check};
 use crate::tolerance::NEST_LOOPS;
 
 /// Largest coordinate, mm: beyond, rounding to 1e-6 mm means nothing.
@@ -57,6 +57,31 @@ pub(super) fn fault(
         }
     }
     None
+}
+
+/// What keeps the stock from being used: a remnant with impossible edges, or locked parts
+/// that overlap or lie outside.
+pub fn stock_fault(shapes: &[Shape], stock: &[Stock]) -> Option<NestError> {
+    let bad_remnant = |(k, stock): (usize, &Stock)| {
+        let remnant = stock.remnant.as_ref()?;
+        let why = fault(&remnant.outline, &remnant.holes).or_else(|| {
+            let Rect { min: low, max: high } = Rect::around(&remnant.outline);
+            let fits = low.x >= 0.0 && low.y >= 0.0;
+            let fits = fits && high.x <= stock.width && high.y <= stock.height;
+            (!fits).then_some("it reaches beyond its width and height")
+        });
+        why.map(|why| NestError::BadRemnant { sheet: k + 1, why })
+    };
+    let bad = stock.iter().enumerate().find_map(bad_remnant);
+    bad.or_else(|| {
+        let sheet = |(stock, s): (usize, &Stock)| NestedSheet {
+            stock,
+            placements: s.locked.clone(),
+        };
+        let sheets = stock.iter().enumerate().map(sheet).collect();
+        let fault = check(&Layout { sheets }, shapes, stock).into_iter().next()?;
+        Some(NestError::BadPlacement { fault: fault.to_string() })
+    })
 }
 
 /// Cut points are rounded, so lines that were cut may cross anew.

@@ -1,10 +1,9 @@
 //! What parts are laid on: sheets one can buy, remnants from the rack, and what already
 //! lies on them.
 
+use crate::geometry::Point2;
 use crate::geometry::ring::area;
-use crate::geometry::{Point2, Rect};
-use crate::nest::outline::fault;
-use crate::nest::{Layout, NestError, NestedSheet, Placement, Shape, check};
+use crate::nest::Placement;
 
 /// A size of sheet one can buy or has in the rack, or a remnant.
 #[derive(Debug, Clone, PartialEq)]
@@ -77,29 +76,4 @@ impl Stock {
         let remnant = self.remnant.iter();
         remnant.flat_map(|r| std::iter::once(&r.outline).chain(&r.holes))
     }
-}
-
-/// What keeps the stock from being used: a remnant with impossible edges, or locked parts
-/// that overlap or lie outside.
-pub fn stock_fault(shapes: &[Shape], stock: &[Stock]) -> Option<NestError> {
-    let bad_remnant = |(k, stock): (usize, &Stock)| {
-        let remnant = stock.remnant.as_ref()?;
-        let why = fault(&remnant.outline, &remnant.holes).or_else(|| {
-            let Rect { min: low, max: high } = Rect::around(&remnant.outline);
-            let fits = low.x >= 0.0 && low.y >= 0.0;
-            let fits = fits && high.x <= stock.width && high.y <= stock.height;
-            (!fits).then_some("it reaches beyond its width and height")
-        });
-        why.map(|why| NestError::BadRemnant { sheet: k + 1, why })
-    };
-    let bad = stock.iter().enumerate().find_map(bad_remnant);
-    bad.or_else(|| {
-        let sheet = |(stock, s): (usize, &Stock)| NestedSheet {
-            stock,
-            placements: s.locked.clone(),
-        };
-        let sheets = stock.iter().enumerate().map(sheet).collect();
-        let fault = check(&Layout { sheets }, shapes, stock).into_iter().next()?;
-        Some(NestError::BadPlacement { fault: fault.to_string() })
-    })
 }

@@ -1,6 +1,6 @@
 //! The drawings of a group of files, format by format.
 
-use crate::drawing::{Drawing, DrawingError, KnownLayer, read_dxf, read_pdf, read_svg};
+use crate::drawing::{Drawing, DrawingError, Reading, read_dxf, read_pdf, read_svg};
 use crate::export::LAYERS;
 use crate::files::{FileFormat, SHEETS};
 use crate::manifest::{Manifest, SheetEntry};
@@ -8,7 +8,7 @@ use crate::proof::JobFiles;
 use crate::proof::finding::{ProofFinding, Spot};
 use crate::proof::sheets::Files;
 
-type Reader = fn(&[u8], &[KnownLayer]) -> Result<Drawing, DrawingError>;
+type Reader = fn(&[u8], &Reading) -> Result<Drawing, DrawingError>;
 
 /// Formats with a file for each sheet.
 const SINGLE: [(FileFormat, Reader); 2] =
@@ -51,11 +51,14 @@ pub(super) fn formats(
 fn read<T>(
     path: &str,
     files: &JobFiles,
-    reader: fn(&[u8], &[KnownLayer]) -> Result<T, DrawingError>,
+    reader: fn(&[u8], &Reading) -> Result<T, DrawingError>,
     facts: &mut Vec<ProofFinding>,
 ) -> Option<T> {
     let spot = Spot::file(path);
-    match files.get(path).map(|bytes| reader(bytes, &LAYERS.map(|layer| layer.known()))) {
+    match files
+        .get(path)
+        .map(|bytes| reader(bytes, &Reading::of(&LAYERS.map(|layer| layer.known()))))
+    {
         Some(Ok(read)) => return Some(read),
         Some(Err(error)) => {
             let reason = error.to_string();

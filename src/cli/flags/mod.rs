@@ -1,6 +1,7 @@
 //! What is typed. Flags know no command: each command takes its own and asks no other's.
 
 pub(super) mod coupon;
+pub(super) mod drawing;
 pub(super) mod nest;
 pub(super) mod planarise;
 pub(super) mod rigidity;

@@ -1,5 +1,6 @@
 //! `nest`.
 
+use crate::cli::flags::drawing::DrawingArgs;
 use crate::cli::flags::value::{EffortLevel, length, seconds, size};
 use clap::Args;
 use std::path::PathBuf;
@@ -11,6 +12,8 @@ Examples:
       parts on the sheets that the file names
   finwright nest drawing.dxf -t pmma-cast-3
       the closed lines of a drawing with what is engraved on them, on the template's sheets
+  finwright nest a.svg b.dxf --sheet 600x400 --join 0.2 --layers Plan=ignore --quantity 3
+      parts of two drawings, three of each, small gaps closed, without the lines of one layer
   finwright nest parts.json --sheet 600x400 --sheet 1000x600 --spacing 2 --margin 5
       on sheets of two sizes, as many of each as needed; the smaller one is tried first
   finwright nest swim.json --time-limit 60
@@ -21,9 +24,13 @@ Examples:
 /// Arguments of `nest`.
 #[derive(Debug, Args)]
 pub struct NestArgs {
-    /// Parts to nest: a drawing (.dxf, .svg), or a finwright-parts or strip-packing file
+    /// Parts to nest: drawings (.dxf, .svg), or one finwright-parts or strip-packing file
     /// (.json)
-    pub input: PathBuf,
+    #[arg(required = true)]
+    pub input: Vec<PathBuf>,
+
+    #[command(flatten)]
+    pub drawing: DrawingArgs,
 
     /// Only check a layout.json that was written before
     #[arg(long)]
