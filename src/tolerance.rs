@@ -183,3 +183,21 @@ pub const NEST_BOUND: f64 = 1e-9;
 
 /// Share of its area that loops of a drawn line may make for it to be nested all the same.
 pub const NEST_LOOPS: f64 = 1e-3;
+
+/// Vertices of a surface nearer to each other than this share of its diagonal are one.
+pub const WELD: f64 = 1e-6;
+
+/// Triangles with less than this share of the square of a surface's diagonal have no area.
+pub const NO_AREA: f64 = 1e-14;
+
+/// Axes that change by less than this over a whole surface are parallel, radians.
+pub const PARALLEL_AXES: f64 = 1e-6;
+
+/// Weight of no direction at all, that a field without a goal may be found.
+pub const LEAST_GOAL: f64 = 1e-9;
+
+/// Stiffness that holds a map which nothing pins, beside that of even spacing.
+pub const PINNED: f64 = 1e-10;
+
+/// Fins of a designed structure are plane to this share of their diameter: 1e-6 %.
+pub const DESIGNED_PLANAR: f64 = 1e-8;

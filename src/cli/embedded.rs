@@ -4,7 +4,7 @@ use crate::cli::flags::{ExampleAction, TemplateAction};
 use crate::cli::input::{self, InputError};
 use crate::cli::jobdir::JobDirError;
 use crate::cli::outcome::{End, Failure, print};
-use crate::design::examples;
+use crate::design::{ReferenceSurface, SURFACES, examples, surface_named};
 use crate::structure::{Structure, write_json};
 use crate::template;
 use crate::tolerance::Tolerance;
@@ -38,7 +38,10 @@ pub(super) fn example(action: ExampleAction) -> Result<End, Failure> {
     match action {
         ExampleAction::List => {
             let line = |e: &examples::Example| format!("{:14} {}\n", e.name, e.about);
-            Ok(print(&examples::ALL.iter().map(line).collect::<String>()))
+            let surface = |s: &ReferenceSurface| format!("{:14} {}\n", s.name, s.about);
+            let structures = examples::ALL.iter().map(line);
+            let all = structures.chain(SURFACES.iter().map(surface));
+            Ok(print(&all.collect::<String>()))
         }
         ExampleAction::Write { name, output } => {
             let Some(text) = example_text(&name) else {
@@ -52,8 +55,11 @@ pub(super) fn example(action: ExampleAction) -> Result<End, Failure> {
     }
 }
 
-/// An embedded structure as JSON.
+/// An embedded structure as JSON, or surface as OBJ.
 fn example_text(name: &str) -> Option<String> {
+    if let Some(surface) = surface_named(name) {
+        return Some((surface.polygons)().obj(surface.about));
+    }
     let example = examples::named(name)?;
     let (structure, _) = Structure::new((example.draft)(), &Tolerance::default()).ok()?;
     Some(write_json(&structure))

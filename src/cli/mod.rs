@@ -4,6 +4,7 @@ mod advise;
 mod check;
 mod console;
 mod coupon;
+mod design;
 mod embedded;
 mod flags;
 mod input;

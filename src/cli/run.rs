@@ -2,6 +2,7 @@
 
 use crate::cli::check;
 use crate::cli::coupon;
+use crate::cli::design;
 use crate::cli::embedded;
 use crate::cli::flags::{Cli, Command};
 use crate::cli::make;
@@ -22,6 +23,7 @@ pub fn run(cli: Cli) -> ExitCode {
         Command::Rigidity(args) => rigidity::run(&args, console),
         Command::Coupon(args) => coupon::run(&args, console),
         Command::Verify(args) => verify::run(&args, console),
+        Command::Design(args) => design::run(&args, console),
         Command::Planarise(args) => planarise::run(&args, console),
         Command::Nest(args) => nest::run(&args, console),
         Command::Template { action } => embedded::templates(action),

@@ -5,6 +5,7 @@
 
 mod architecture;
 mod connectors;
+mod design;
 mod diagnostics;
 mod gate;
 mod golden;

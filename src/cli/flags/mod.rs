@@ -1,6 +1,7 @@
 //! What is typed. Flags know no command: each command takes its own and asks no other's.
 
 pub(super) mod coupon;
+pub(super) mod design;
 pub(super) mod drawing;
 pub(super) mod nest;
 pub(super) mod planarise;
@@ -59,6 +60,10 @@ pub enum Command {
     #[command(after_help = rigidity::HELP)]
     Rigidity(rigidity::RigidityArgs),
 
+    /// Design a structure on a reference surface
+    #[command(after_help = design::HELP)]
+    Design(Box<design::DesignArgs>),
+
     /// Planar fins from any quad-dominant mesh
     #[command(after_help = planarise::HELP)]
     Planarise(Box<planarise::PlanariseArgs>),
@@ -83,7 +88,7 @@ pub enum Command {
         action: TemplateAction,
     },
 
-    /// Show or write the embedded structures
+    /// Show or write the embedded structures and surfaces
     #[command(after_help = EXAMPLE_HELP)]
     Example {
         /// What to show.
@@ -134,11 +139,11 @@ pub enum TemplateAction {
 /// Actions of `example`.
 #[derive(Debug, Subcommand)]
 pub enum ExampleAction {
-    /// List the embedded structures
+    /// List the embedded structures and surfaces
     List,
-    /// Write one as JSON
+    /// Write one: a structure as JSON, a surface as OBJ
     Write {
-        /// Name of the structure
+        /// Its name
         name: String,
         /// File to write; standard output if left out
         #[arg(short, long, value_name = "FILE")]
@@ -153,6 +158,7 @@ impl Command {
             Self::Make(args) => args.input.json,
             Self::Verify(args) => args.json,
             Self::Coupon(args) => args.json,
+            Self::Design(args) => args.json,
             Self::Check(args) => args.input.json,
             Self::Nest(args) => args.json,
             Self::Rigidity(args) => args.input.json,

@@ -15,7 +15,7 @@ mod judge;
 mod matrix;
 mod needed;
 mod options;
-mod picture;
+pub(in crate::design) mod picture;
 mod setup;
 mod surface;
 mod terms;
@@ -27,6 +27,7 @@ pub use needed::planarised_if_needed;
 pub use options::Options;
 pub use picture::{PictureError, picture};
 pub use setup::smoothed_axes;
+pub(in crate::design) use surface::shares;
 pub use terms::{WISHES, Weights, Wish};
 
 use crate::design::planarise::descent::{Broken, descend};

@@ -12,10 +12,10 @@ use thiserror::Error;
 use tiny_skia::{Color, FillRule, Paint, Path, PathBuilder, Pixmap, Stroke, Transform};
 
 /// Width and height of one of the two panels, pixels.
-const PANEL: [f64; 2] = [1100.0, 900.0];
+pub(in crate::design) const PANEL: [f64; 2] = [1100.0, 900.0];
 /// Room below for the scale of colours, pixels.
-const FOOT: f64 = 110.0;
-const MARGIN: f64 = 60.0;
+pub(in crate::design) const FOOT: f64 = 110.0;
+pub(in crate::design) const MARGIN: f64 = 60.0;
 /// The scale of colours runs between these shares of a fin's diameter, in powers of ten.
 const LOW_POWER: f64 = -7.0;
 const HIGH_POWER: f64 = -2.0;
@@ -32,24 +32,37 @@ pub struct PictureError;
 /// # Errors
 /// [`PictureError`] if there is nothing to draw.
 pub fn picture(before: &Draft, after: &Draft) -> Result<Vec<u8>, PictureError> {
-    let view = Panel::onto(before);
-    let size = [2.0 * PANEL[0], PANEL[1] + FOOT];
-    let mut pixels = Pixmap::new(size[0] as u32, size[1] as u32).ok_or(PictureError)?;
-    pixels.fill(Color::WHITE);
-    for (panel, (title, draft)) in
-        [("before", before), ("after", after)].iter().enumerate()
-    {
-        let left = panel as f64 * PANEL[0];
-        let worst = view.fins(draft, left, &mut pixels);
-        let text = format!("{title}: worst fin {:.5} %", worst * 100.0);
-        write(&mut pixels, &text, [left + MARGIN, 20.0], 22.0);
-    }
-    legend(&mut pixels);
+    let mut pixels = paper(2)?;
+    planarities([before, after], 0.0, &mut pixels);
     pixels.encode_png().map_err(|_| PictureError)
 }
 
+/// White paper for this many panels side by side.
+pub(in crate::design) fn paper(panels: usize) -> Result<Pixmap, PictureError> {
+    let size = [panels as f64 * PANEL[0], PANEL[1] + FOOT];
+    let mut pixels = Pixmap::new(size[0] as u32, size[1] as u32).ok_or(PictureError)?;
+    pixels.fill(Color::WHITE);
+    Ok(pixels)
+}
+
+/// Draws planarity before and after in two panels, the first one at `left`.
+pub(in crate::design) fn planarities(
+    drafts: [&Draft; 2],
+    left: f64,
+    pixels: &mut Pixmap,
+) {
+    let view = Panel::onto(drafts[0]);
+    for (panel, (title, draft)) in ["before", "after"].iter().zip(drafts).enumerate() {
+        let left = left + panel as f64 * PANEL[0];
+        let worst = view.fins(draft, left, pixels);
+        let text = format!("{title}: worst fin {:.5} %", worst * 100.0);
+        write(pixels, &text, [left + MARGIN, 20.0], 22.0);
+    }
+    legend(left, pixels);
+}
+
 /// A camera with what is in the middle of its panel, and how large that is.
-struct Panel {
+pub(in crate::design) struct Panel {
     camera: Camera,
     centre: Vector3,
     scale: f64,
@@ -57,7 +70,7 @@ struct Panel {
 
 impl Panel {
     /// Slanted onto the mesh, so that it fills a panel.
-    fn onto(draft: &Draft) -> Self {
+    pub(in crate::design) fn onto(draft: &Draft) -> Self {
         let sum: Vector3 = draft.axes.iter().map(|axis| axis.normalize()).sum();
         let above = if sum.norm() > 0.1 * draft.axes.len() as f64 {
             sum.normalize()
@@ -82,6 +95,12 @@ impl Panel {
         self.camera.flat(&(p.coords - self.centre)) * self.scale
     }
 
+    /// Where a point is drawn in the panel at `left`.
+    pub(in crate::design) fn pixel(&self, p: &Point3, left: f64) -> [f64; 2] {
+        let p = self.at(p);
+        [left + PANEL[0] / 2.0 + p.x, PANEL[1] / 2.0 + MARGIN / 2.0 - p.y]
+    }
+
     /// Draws all fins, the farthest first; returns the worst planarity.
     fn fins(&self, draft: &Draft, left: f64, pixels: &mut Pixmap) -> f64 {
         let quad = |fin: &FinId| {
@@ -102,10 +121,7 @@ impl Panel {
             let (off, diameter) = planarity(quad);
             let share = if diameter > 0.0 { off / diameter } else { 0.0 };
             worst = worst.max(share);
-            let place = |p: &Point3| {
-                let p = self.at(p);
-                [left + PANEL[0] / 2.0 + p.x, PANEL[1] / 2.0 + MARGIN / 2.0 - p.y]
-            };
+            let place = |p: &Point3| self.pixel(p, left);
             if let Some(path) = polygon(&quad.each_ref().map(place)) {
                 paint(pixels, &path, colour(share));
             }
@@ -140,9 +156,9 @@ fn colour(share: f64) -> [u8; 3] {
     BLUE_TO_RED.at(place).map(|light| light.round() as u8)
 }
 
-/// The scale of colours, with the percentages at its powers of ten.
-fn legend(pixels: &mut Pixmap) {
-    let (left, width, top) = (PANEL[0] - 500.0, 1000.0, PANEL[1] + 20.0);
+/// The scale of colours, with the percentages at its powers of ten, below two panels.
+fn legend(left: f64, pixels: &mut Pixmap) {
+    let (left, width, top) = (left + PANEL[0] - 500.0, 1000.0, PANEL[1] + 20.0);
     let steps = 100;
     for step in 0..steps {
         let at = |k: usize| left + width * k as f64 / f64::from(steps as u8);
@@ -166,7 +182,12 @@ fn legend(pixels: &mut Pixmap) {
 }
 
 /// Writes a line with its upper left corner here, this many pixels high.
-fn write(pixels: &mut Pixmap, text: &str, [x, y]: [f64; 2], height: f64) {
+pub(in crate::design) fn write(
+    pixels: &mut Pixmap,
+    text: &str,
+    [x, y]: [f64; 2],
+    height: f64,
+) {
     let Ok(lettering) = letter(text, height) else { return };
     let mut builder = PathBuilder::new();
     for stroke in &lettering.strokes {

@@ -231,7 +231,7 @@ fn foot_on(corners: &[Corner; 3], p: Point3) -> Foot {
 }
 
 /// Barycentric coordinates of the triangle's point nearest to `p`.
-fn shares(&[a, b, c]: &[Point3; 3], p: Point3) -> [f64; 3] {
+pub(in crate::design) fn shares(&[a, b, c]: &[Point3; 3], p: Point3) -> [f64; 3] {
     let (ab, ac) = (b - a, c - a);
     let (d1, d2) = (ab.dot(&(p - a)), ac.dot(&(p - a)));
     let (d3, d4) = (ab.dot(&(p - b)), ac.dot(&(p - b)));

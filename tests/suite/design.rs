@@ -1,0 +1,266 @@
+//! From reference surfaces to structures: what has to hold of every design, and what the
+//! embedded surfaces reach.
+
+use finwright::design::surface::{Polygons, Surface, clean};
+use finwright::design::{
+    Align, Designed, SURFACES, SingularWish, Size, Wishes, design, surface_named,
+};
+use finwright::geometry::{Point3, Vector3, trig};
+use std::process::Command;
+
+fn wishes(size: Size, align: Align) -> Wishes {
+    let singular = SingularWish::Auto;
+    Wishes { size, align, depth: None, boundary_fins: false, singular, even: false }
+}
+
+fn surface(polygons: Polygons) -> Surface {
+    clean(polygons).unwrap().0
+}
+
+/// Designs and checks what has to hold always.
+fn sound(surface: &Surface, wishes: &Wishes) -> Designed {
+    let designed = design(surface, "test", wishes, &mut ()).unwrap();
+    let figures = &designed.figures;
+    assert_eq!((figures.flipped, figures.reversed), (0, 0));
+    assert_eq!(figures.euler, surface.euler());
+    assert!(figures.planarity_percent.after.max <= 1e-6, "{figures:?}");
+    if wishes.align != Align::None || surface.boundary().is_empty() {
+        assert!(designed.draft.faces.iter().all(|face| face.len() == 4));
+    }
+    designed
+}
+
+fn valences(designed: &Designed) -> Vec<usize> {
+    let mut valences: Vec<usize> =
+        designed.figures.singular.iter().map(|node| node.valence).collect();
+    valences.sort_unstable();
+    valences
+}
+
+#[test]
+fn embedded_surfaces_reach_their_figures() {
+    // Least share in band, largest turn of an axis, most singular nodes; trimmed, aligned.
+    let limits = [
+        ("hill", [(0.75, 6.5, 10), (0.70, 20.0, 14)]),
+        ("court", [(0.90, 6.5, 8), (0.80, 30.0, 14)]),
+        ("dome-surface", [(0.95, 4.0, 6), (0.75, 6.0, 6)]),
+    ];
+    for (name, limits) in limits {
+        let surface = surface((surface_named(name).unwrap().polygons)());
+        for (align, (in_band, turn, singular)) in
+            [Align::None, Align::Boundary].iter().zip(limits)
+        {
+            let designed = sound(&surface, &wishes(Size::Cell(40.0), *align));
+            let figures = &designed.figures;
+            let reached = format!(
+                "{name} {align:?}: {:.3} in band, {:.1}° of turn, {:?} singular",
+                figures.edge.in_band,
+                figures.axis_turn_deg.max,
+                valences(&designed)
+            );
+            assert!(figures.edge.in_band >= in_band, "{reached}");
+            assert!(figures.axis_turn_deg.max <= turn, "{reached}");
+            assert!(figures.singular.len() <= singular, "{reached}");
+        }
+    }
+}
+
+#[test]
+fn moved_turned_scaled_and_renumbered_the_design_is_the_same() {
+    let given = (surface_named("dome-surface").unwrap().polygons)();
+    let count = given.positions.len();
+    let axis = Vector3::new(0.3, -0.5, 0.8);
+    let turn = nalgebra::Rotation3::new(axis * 1.1);
+    let moved = |p: &Point3| turn * (p * 37.0) + Vector3::new(1e4, -3e3, 700.0);
+    // A prime that does not divide the count: every number once.
+    let number = |k: usize| (k * 7919 + 13) % count;
+    let mut positions = vec![Point3::origin(); count];
+    given.positions.iter().enumerate().for_each(|(k, p)| positions[number(k)] = moved(p));
+    let mut faces: Vec<Vec<usize>> = given
+        .faces
+        .iter()
+        .map(|face| face.iter().cycle().skip(1).take(3).map(|&k| number(k)).collect())
+        .collect();
+    faces.reverse();
+    let first = sound(&surface(given), &wishes(Size::Cell(40.0), Align::None));
+    let other = Polygons { positions, faces, axes: None };
+    let other = sound(&surface(other), &wishes(Size::Cell(40.0 * 37.0), Align::None));
+    assert_eq!(valences(&first), valences(&other));
+    let nodes = [first.figures.nodes, other.figures.nodes];
+    assert!(nodes[0].abs_diff(nodes[1]) * 50 <= nodes[0], "{nodes:?}");
+    let turns = [first, other].map(|designed| designed.figures.axis_turn_deg.max);
+    assert!((turns[0] - turns[1]).abs() < 0.5, "{turns:?}");
+}
+
+/// A patch over a grid, of this height.
+fn patch(columns: usize, rows: usize, height: impl Fn(f64, f64) -> f64) -> Polygons {
+    let at = |i: usize, j: usize| j * (columns + 1) + i;
+    let mut polygons = Polygons::default();
+    for j in 0..=rows {
+        for i in 0..=columns {
+            let (x, y) = (20.0 * i as f64, 20.0 * j as f64);
+            polygons.positions.push(Point3::new(x, y, height(x, y)));
+            if i < columns && j < rows {
+                polygons.faces.push(vec![
+                    at(i, j),
+                    at(i + 1, j),
+                    at(i + 1, j + 1),
+                    at(i, j + 1),
+                ]);
+            }
+        }
+    }
+    polygons
+}
+
+#[test]
+fn a_flat_surface_gets_an_exact_grid() {
+    let flat = surface(patch(20, 12, |_, _| 0.0));
+    let designed = sound(&flat, &wishes(Size::Cell(40.0), Align::Boundary));
+    let figures = &designed.figures;
+    assert_eq!((figures.nodes, figures.faces), (11 * 7, 10 * 6));
+    assert!(figures.axis_turn_deg.max < 1e-6 && figures.edge.p95 < 40.001, "{figures:?}");
+}
+
+#[test]
+fn a_closed_surface_has_eight_nodes_of_three_fins_more_than_of_five() {
+    // An octahedron, cut finer and blown up to an ellipsoid.
+    let mut polygons = Polygons::default();
+    let steps: usize = 12;
+    for octant in 0..8 {
+        let sign = |bit: usize| if octant >> bit & 1 == 0 { 1.0 } else { -1.0 };
+        let first = polygons.positions.len();
+        let row = |i: usize| first + i * (i + 1) / 2;
+        for i in 0..=steps {
+            for j in 0..=i {
+                let (x, y, z) = ((i - j) as f64, j as f64, (steps - i) as f64);
+                let out = Vector3::new(x * sign(0), y * sign(1), z * sign(2)).normalize();
+                polygons.positions.push(Point3::new(
+                    300.0 * out.x,
+                    220.0 * out.y,
+                    170.0 * out.z,
+                ));
+                if i < steps {
+                    polygons.faces.push(vec![
+                        row(i) + j,
+                        row(i + 1) + j,
+                        row(i + 1) + j + 1,
+                    ]);
+                }
+                if i < steps && j < i {
+                    polygons.faces.push(vec![
+                        row(i) + j,
+                        row(i + 1) + j + 1,
+                        row(i) + j + 1,
+                    ]);
+                }
+            }
+        }
+    }
+    let closed = surface(polygons);
+    assert_eq!(closed.euler(), 2);
+    let designed = sound(&closed, &wishes(Size::Cell(45.0), Align::None));
+    let missing: i64 =
+        designed.figures.singular.iter().map(|node| 4 - node.valence as i64).sum();
+    assert_eq!(missing, 8);
+}
+
+#[test]
+fn the_wanted_number_of_nodes_is_met_within_a_tenth() {
+    let hill = surface((SURFACES[0].polygons)());
+    for wanted in [250, 700] {
+        let designed = sound(&hill, &wishes(Size::Nodes(wanted), Align::None));
+        let nodes = designed.figures.nodes;
+        assert!(nodes.abs_diff(wanted) * 10 <= wanted, "{nodes} for {wanted}");
+    }
+}
+
+#[test]
+fn random_surfaces_give_a_sound_net_or_a_named_refusal() {
+    let mut seed = 7_u64;
+    let mut random = || {
+        seed = seed
+            .wrapping_mul(6_364_136_223_846_793_005)
+            .wrapping_add(1_442_695_040_888_963_407);
+        (seed >> 33) as f64 / (1_u64 << 31) as f64
+    };
+    for round in 0..20 {
+        let [a, b, c, d] = [random(), random(), random(), random()];
+        let noise: Vec<f64> = (0..200).map(|_| (random() - 0.5) * 4.0 * d).collect();
+        let height = |x: f64, y: f64| {
+            let wave = 60.0
+                * a
+                * trig::sin(x / (40.0 + 80.0 * b))
+                * trig::cos(y / (30.0 + 90.0 * c));
+            wave + noise[((x + 3.0 * y) / 20.0) as usize % noise.len()]
+        };
+        let surface = surface(patch(16, 12, height));
+        let cell = 10.0 + 90.0 * random();
+        let align = if round % 2 == 0 { Align::None } else { Align::Auto };
+        match design(&surface, "random", &wishes(Size::Cell(cell), align), &mut ()) {
+            Ok(designed) => assert_eq!(designed.figures.euler, 1, "round {round}"),
+            Err(finwright::design::planarise::PlanariseError::Refused(findings)) => {
+                assert!(!findings.is_empty(), "round {round}");
+            }
+            Err(other) => panic!("round {round}: {other:?}"),
+        }
+    }
+}
+
+#[test]
+fn the_command_designs_on_the_embedded_hill_and_says_what_it_reached() {
+    let run = || {
+        let output = Command::new(env!("CARGO_BIN_EXE_finwright"))
+            .args(["design", "--nodes", "300", "--json"])
+            .output()
+            .unwrap();
+        assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+        output.stdout
+    };
+    let first = run();
+    assert_eq!(first, run());
+    let report: serde_json::Value = serde_json::from_slice(&first).unwrap();
+    for key in ["nodes", "fins", "euler", "singular", "edge", "axis_turn_deg", "findings"]
+    {
+        assert!(report.get(key).is_some(), "{key}");
+    }
+    assert_eq!(report["euler"], 1);
+}
+
+#[test]
+fn singular_nodes_are_where_they_are_wanted_and_nowhere_else() {
+    let hill = surface((surface_named("hill").unwrap().polygons)());
+    let none = Wishes {
+        singular: SingularWish::At(Vec::new()),
+        ..wishes(Size::Cell(40.0), Align::None)
+    };
+    assert_eq!(valences(&sound(&hill, &none)), Vec::<usize>::new());
+    let dome = surface((surface_named("dome-surface").unwrap().polygons)());
+    let places = [(200.0, 160.0), (-200.0, 160.0), (-200.0, -160.0), (200.0, -160.0)];
+    let places = places.map(|(x, y)| (Point3::new(x, y, 200.0), 3));
+    let four = Wishes {
+        singular: SingularWish::At(places.to_vec()),
+        ..wishes(Size::Cell(40.0), Align::None)
+    };
+    let designed = sound(&dome, &four);
+    assert_eq!(valences(&designed), [3; 4]);
+    for node in &designed.figures.singular {
+        let [x, y, _] = node.position;
+        assert!(
+            (x.abs() - 200.0).abs() < 30.0 && (y.abs() - 160.0).abs() < 30.0,
+            "{node:?}"
+        );
+    }
+}
+
+#[test]
+fn even_cells_are_paid_for_by_axes_and_both_are_said() {
+    let hill = surface((surface_named("hill").unwrap().polygons)());
+    let plain = sound(&hill, &wishes(Size::Cell(40.0), Align::None));
+    let even = Wishes { even: true, ..wishes(Size::Cell(40.0), Align::None) };
+    let even = sound(&hill, &even);
+    let in_band = [&plain, &even].map(|designed| designed.figures.edge.in_band);
+    assert!(in_band[1] > in_band[0], "{in_band:?}");
+    assert!(even.figures.axis_turn_deg.max <= 13.0);
+    assert!(even.findings.iter().any(|finding| finding.code == "design::evened"));
+}
