@@ -4,6 +4,7 @@
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
 mod architecture;
+mod circles;
 mod connectors;
 mod design;
 mod diagnostics;
