@@ -1,4 +1,4 @@
-//! Parts and layouts from JSON (contract §5).
+//! Parts and layouts from JSON (docs/nesting.md).
 
 use crate::geometry::Point2;
 use crate::nest::{

@@ -4,7 +4,7 @@
 //! axis, one from below and one from above, a rod through both. A window crosses its fin
 //! squarely, so its width is the thickness and the clearance at any angle, and the disc is
 //! its own angle gauge. A *hinge* is a stack of eye plates on a rod, two for each fin
-//! (fabrication notes §4.5). A node with one fin needs neither.
+//! (docs/formulas.md §2.4). A node with one fin needs neither.
 
 use crate::diagnostic::{Finding, passes};
 use crate::geometry::{Contour, Region};

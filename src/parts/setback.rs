@@ -2,7 +2,7 @@
 //!
 //! Seen along the axis every fin is a bar that starts on the axis. Two bars of thicknesses
 //! t and u at the angle b meet in a corner; the first is clear of the second from
-//! r = (u + t cos b) / (2 sin b) on (fabrication notes §4.1, §4.5). For equal plates this
+//! r = (u + t cos b) / (2 sin b) on (docs/formulas.md §2.1, §2.4). For equal plates this
 //! is t / (2 tan(b/2)), and nothing from 180° on.
 
 use crate::geometry::trig;

@@ -9,7 +9,7 @@ use crate::tolerance::{FARTHEST_MM, NO_AXIS, NO_LENGTH_MM, Tolerance};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Off-plane distance of a quad's corners from their middle plane and their largest
-/// distance, mm (contract §2): half the distance between the two diagonals' lines.
+/// distance, mm (docs/formulas.md §3): half the distance between the two diagonals' lines.
 pub fn planarity(corners: &[Point3; 4]) -> (f64, f64) {
     let [a, b, c, d] = corners;
     let across = (c - a).cross(&(d - b));

@@ -1,4 +1,4 @@
-//! Structures as JSON (contract §2).
+//! Structures as JSON (docs/structure.md).
 
 use crate::geometry::{Point3, Vector3};
 use crate::ids::NodeId;
@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize};
 use serde_json::Value;
 use std::fmt;
 
-/// The keys of a structure (contract §2).
+/// The keys of a structure (docs/structure.md).
 const KEYS: [&str; 11] = [
     "format",
     "version",

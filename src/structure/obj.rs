@@ -45,7 +45,7 @@ struct Mesh {
 }
 
 /// Reads a mesh as a structure in millimetres, each side of a fin 0.35 of the median
-/// fin length deep (contract §2).
+/// fin length deep (docs/structure.md).
 ///
 /// # Errors
 /// [`ReadError`] with the line at fault.

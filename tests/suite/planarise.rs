@@ -39,7 +39,7 @@ fn made(draft: Draft) -> Planarised {
     planarise(draft, &Options::default(), &mut ()).unwrap()
 }
 
-/// Planarity by its definition in contract §2, from the draft alone.
+/// Planarity by its definition in docs/formulas.md §3, from the draft alone.
 fn worst(draft: &Draft) -> f64 {
     let shares = draft.fin_ids().into_iter().map(|fin| {
         let [i, j] = fin.ends();

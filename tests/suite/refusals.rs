@@ -1,4 +1,4 @@
-//! What is refused leaves nothing half-written, and ends with the code of contract §1.
+//! What is refused leaves nothing half-written, and ends with the code of docs/job.md.
 
 use std::path::Path;
 use std::process::Command;

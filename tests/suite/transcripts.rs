@@ -1,5 +1,5 @@
 //! The command as a user meets it: the built binary, its exit codes, its streams, its
-//! folders (contract §1).
+//! folders (docs/job.md).
 
 use finwright::structure::{AxisRule, Structure, read_json};
 use finwright::tolerance::Tolerance;

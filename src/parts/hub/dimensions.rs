@@ -3,7 +3,7 @@
 //! Seen along the axis, a disc has from the inside out: a hole for the rod; the middle, up
 //! to `inner`; a closed window for each fin, `slot` long; a ring around all windows. The
 //! tongue of a fin stands in the window; beside it the fin is notched from its edge to take
-//! in the ring (correction (iii) of the fabrication notes §4).
+//! in the ring (docs/formulas.md §2.4).
 
 use crate::geometry::trig;
 use crate::parts::fit::Fit;

@@ -1,5 +1,5 @@
 //! How tightly a strip bends at a node: its fold spread over the fins beside it, less the
-//! slit (fabrication notes §4.6).
+//! slit (docs/formulas.md §2.5).
 
 use crate::ids::NodeId;
 use crate::parts::lap::join::Slit;

@@ -3,7 +3,7 @@
 //! Node axes are not parallel, slits are. Pushed straight along one direction, a slit as
 //! deep as d on an axis that leans from it by an angle a runs sideways by d tan a; if that
 //! is more than the clearance, the strip is zipped in, and between two neighbouring nodes
-//! whose axes differ by b the plates have to give way by d tan b (fabrication notes §4.3).
+//! whose axes differ by b the plates have to give way by d tan b (docs/formulas.md §2.3).
 //! The bend that takes is that of a cantilever as long as the fin: radius = L² / (3 δ).
 
 use crate::geometry::Vector3;

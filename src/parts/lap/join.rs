@@ -350,8 +350,8 @@ fn cut(
     }
 }
 
-/// From the axis to the slit's wall along `arm`, without clearance (§4.1 and correction
-/// (i) of the fabrication notes).
+/// From the axis to the slit's wall along `arm`, without clearance
+/// (docs/formulas.md §2.1, §2.2).
 fn half_width(arm: f64, other: &Passage, fit: &Fit) -> f64 {
     let beside = [other.before, other.after].map(|neighbour| {
         let between = turn(arm, neighbour);

@@ -75,7 +75,7 @@ fn row(part: &Part, template: &Template) -> Option<Vec<String>> {
 }
 
 /// How much shorter a sheet becomes that is bent to the least hot radius instead of folded
-/// sharply, its middle plane kept: 2 R tan(κ/2) − R κ (fabrication notes §4.6).
+/// sharply, its middle plane kept: 2 R tan(κ/2) − R κ (docs/formulas.md §2.5).
 fn allowance(fold: f64, thickness: f64) -> f64 {
     let middle = (HEATED + 0.5) * thickness;
     let half = fold.abs() / 2.0;
