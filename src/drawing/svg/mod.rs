@@ -340,11 +340,10 @@ mod tests {
             <svg xmlns="http://www.w3.org/2000/svg" xmlns:xlink="http://www.w3.org/1999/xlink"
             width="200mm" height="50mm" viewBox="0 0 200 50">{inside}&big;</svg>"#
         );
-        let cm = 30.0 * 96.0 / 25.4;
-        let cm = (cm * 100.0_f64).round() / 100.0;
+        let cm = |count: f64| (count * 960.0 / 25.4 * 100.0).round() / 100.0;
         let wanted = [
-            [cm, 20.0],
-            [2.0 * cm, 20.0],
+            [cm(3.0), 20.0],
+            [cm(6.0), 20.0],
             [40.0, 20.0],
             [40.0, 40.0],
             [100.0, 6.0],
