@@ -160,7 +160,8 @@ class Runner:
 def cases(runner: Runner, meshes: Path | None, connectors: bool) -> list[Case]:
     found = [Case("default", [], [])]
     listed = runner.finwright("example", "list")
-    names = [line.split()[0] for line in listed.stdout.splitlines() if line.strip()]
+    # Surfaces are for `design`, not for `make`.
+    names = [line.split()[0] for line in listed.stdout.splitlines() if line.strip() and " surface: " not in line]
     runner.note("example list", listed.returncode == 0 and bool(names), ", ".join(names))
     for name in names:
         written = runner.finwright("example", "write", name, "-o", f"{name}.json")

@@ -254,7 +254,11 @@ fn examples_are_structures_and_templates_pass_their_own_check() {
             .map(str::to_owned)
             .collect()
     };
-    for name in names(&examples) {
+    // Surfaces are for `design` and written as OBJ.
+    let (surfaces, structures): (Vec<&str>, Vec<&str>) =
+        examples.lines().partition(|line| line.contains(" surface: "));
+    assert_eq!(surfaces.len(), 3);
+    for name in names(&structures.join("\n")) {
         let text = said(&run(place.path(), &["example", "write", &name]).stdout);
         let draft = read_json(&text, AxisRule::File).expect("we wrote it");
         assert!(Structure::new(draft.0, &Tolerance::default()).is_ok(), "{name}");
