@@ -1,4 +1,4 @@
-//! How strips and fins are joined.
+//! How strips and fins are joined: what is known of a joint before anything is made with it.
 
 use serde::{Deserialize, Serialize};
 
@@ -16,13 +16,67 @@ pub enum Joint {
     Hub,
 }
 
+/// What is known of a joint.
+struct Facts {
+    name: &'static str,
+    words: &'static str,
+    has_strips: bool,
+    has_hubs_everywhere: bool,
+    takes_remedies: bool,
+}
+
 impl Joint {
+    /// All joints there are.
+    pub const ALL: [Self; 3] = [Self::Lap, Self::Hinge, Self::Hub];
+
+    const fn facts(self) -> Facts {
+        match self {
+            Self::Lap => Facts {
+                name: "lap",
+                words: "rigid strips, half-lapped where they cross",
+                has_strips: true,
+                has_hubs_everywhere: false,
+                takes_remedies: false,
+            },
+            Self::Hinge => Facts {
+                name: "hinge",
+                words: "single fins on rods",
+                has_strips: false,
+                has_hubs_everywhere: false,
+                takes_remedies: true,
+            },
+            Self::Hub => Facts {
+                name: "hub",
+                words: "single fins in slotted discs",
+                has_strips: false,
+                has_hubs_everywhere: true,
+                takes_remedies: false,
+            },
+        }
+    }
+
     /// As it is typed and written.
     pub const fn name(self) -> &'static str {
-        match self {
-            Self::Lap => "lap",
-            Self::Hinge => "hinge",
-            Self::Hub => "hub",
-        }
+        self.facts().name
+    }
+
+    /// What is built, in words.
+    pub const fn words(self) -> &'static str {
+        self.facts().words
+    }
+
+    /// Whether fins are grouped into strips; else each is a body of its own.
+    pub const fn has_strips(self) -> bool {
+        self.facts().has_strips
+    }
+
+    /// Whether every node has a hub anyway.
+    pub const fn has_hubs_everywhere(self) -> bool {
+        self.facts().has_hubs_everywhere
+    }
+
+    /// Whether hubs on some nodes cure it where it is flexible.
+    pub const fn takes_remedies(self) -> bool {
+        self.facts().takes_remedies
     }
 }

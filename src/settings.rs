@@ -3,11 +3,11 @@
 use crate::ids::NodeId;
 use crate::joint::Joint;
 use crate::nest::{Effort, Rotations, Stock};
-use crate::parts::{Fit, FoldMarks, Marking};
+use crate::parts::{Fit, MarkKind, Marking};
 use crate::rigidity::Fingerprint;
 use crate::sheets::{Frame, Kerf};
 use crate::structure::Structure;
-use crate::template::{self, Template};
+use crate::template::{FoldMarks, Template};
 use crate::tolerance::Tolerance;
 
 /// What a job is made with.
@@ -60,11 +60,6 @@ impl Settings {
     pub fn with_hubs(mut self, nodes: impl IntoIterator<Item: Into<NodeId>>) -> Self {
         self.hub_nodes.extend(nodes.into_iter().map(Into::into));
         Self { hub_nodes: ascending(self.hub_nodes), ..self }
-    }
-
-    /// Whether single fins meet in a hub at a node; else they hang on a rod.
-    pub fn has_hub(&self, node: NodeId) -> bool {
-        self.joint == Joint::Hub || self.hub_nodes.contains(&node)
     }
 
     /// Of a structure made with these settings.
@@ -152,9 +147,9 @@ fn marking(template: &Template) -> Marking {
     Marking {
         height: template.output.lettering_mm,
         folds: match template.bend.fold_marks {
-            template::FoldMarks::None => FoldMarks::None,
-            template::FoldMarks::Engrave => FoldMarks::Engrave,
-            template::FoldMarks::Score => FoldMarks::Score,
+            FoldMarks::None => None,
+            FoldMarks::Engrave => Some(MarkKind::Engrave),
+            FoldMarks::Score => Some(MarkKind::Score),
         },
     }
 }

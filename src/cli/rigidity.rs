@@ -168,7 +168,8 @@ fn structure(args: &InputArgs) -> Result<Result<Case, Vec<Finding>>, Failure> {
         Ok(criteria) => criteria,
         Err(fact) => return Ok(Err(vec![fact.into()])),
     };
-    let (model, structure) = fabrication::model(&structure, &settings);
+    let plan = fabrication::plan(&structure, &settings);
+    let (model, structure) = (plan.model(), plan.structure);
     let fingerprint = settings.fingerprint(&structure);
     let (joint, structure) = (Some(args.joint), Some(structure));
     Ok(Ok(Case { model, fingerprint, criteria, findings, joint, structure }))

@@ -2,11 +2,10 @@
 
 use crate::diagnostic::{Finding, Severity};
 use crate::ids::NodeId;
-use crate::joint::Joint;
-use crate::parts;
+use crate::parts::{self, Plan};
 use crate::rigidity::{
-    self, Criteria, Cure, FEW_STEPS, MOST_STEPS, Model, Pairing, RigidityFinding,
-    SwayLimit, Verdict,
+    self, Criteria, Cure, FEW_STEPS, MOST_STEPS, Pairing, RigidityFinding, SwayLimit,
+    Verdict,
 };
 use crate::settings::Settings;
 use crate::structure::{Draft, Structure};
@@ -14,20 +13,9 @@ use crate::template::Template;
 use crate::watch::{Stopped, Watch};
 use std::collections::BTreeSet;
 
-/// What a structure is as a mechanism, and the structure with its strips as they will be cut.
-pub fn model(structure: &Structure, settings: &Settings) -> (Model, Structure) {
-    match settings.joint {
-        Joint::Lap => {
-            let lapped = parts::lapped(structure, &settings.hub_nodes, &settings.fit);
-            let parts::Lapped { structure, unheld, levers } = lapped;
-            (Model::of_strips(&structure, &unheld, &levers), structure)
-        }
-        Joint::Hinge | Joint::Hub => {
-            let has_hub = |node| settings.has_hub(node);
-            let levers = parts::levers(structure, &has_hub, &settings.fit);
-            (Model::of_fins(structure, &levers), structure.clone())
-        }
-    }
+/// How a structure is built with its settings.
+pub fn plan(structure: &Structure, settings: &Settings) -> Plan {
+    parts::plan(structure, settings.joint, &settings.hub_nodes, &settings.fit)
 }
 
 /// Rounds of remedies at most: hubs have play too, so that what was enough for joints made
@@ -52,7 +40,7 @@ pub fn with_remedies(
         return Ok(settings);
     };
     for _ in 0..ROUNDS {
-        let (model, _) = model(&structure, &settings);
+        let model = plan(&structure, &settings).model();
         let fingerprint = settings.fingerprint(&structure);
         if rigidity::judge(&model, &criteria, fingerprint, watch)?.passes() {
             break;
@@ -94,18 +82,18 @@ pub fn criteria(
 /// Up to this many bodies a refusal comes with the first steps of what would help.
 const CURABLE: usize = 2000;
 
-/// Judges a structure with its settings.
+/// Judges the plan of a structure with its settings.
 ///
 /// # Errors
 /// [`Stopped`] if the watch stopped the work.
 pub fn verdict(
-    structure: &Structure,
+    plan: &Plan,
     settings: &Settings,
     criteria: &Criteria,
     watch: &mut dyn Watch,
 ) -> Result<Verdict, Stopped> {
-    let (model, structure) = model(structure, settings);
-    let fingerprint = settings.fingerprint(&structure);
+    let model = plan.model();
+    let fingerprint = settings.fingerprint(&plan.structure);
     let verdict = rigidity::judge(&model, criteria, fingerprint, watch)?;
     if verdict.passes() || model.bodies.len() > CURABLE {
         return Ok(verdict);

@@ -2,15 +2,14 @@
 
 mod judge;
 
-pub use judge::{criteria, model, verdict, with_remedies};
+pub use judge::{criteria, plan, verdict, with_remedies};
 
 use crate::diagnostic::Finding;
 use crate::gate::{self, Approved, Judged, Shut};
 use crate::geometry::{Contour, Point2};
 use crate::ids::NodeId;
-use crate::joint::Joint;
 use crate::nest::{self, Layout, NestError, Shape};
-use crate::parts::{self, Body, ConnectorFinding, Making, Part, Step};
+use crate::parts::{self, Body, Making, Part, PartFinding, Plan, Step};
 use crate::rigidity::Verdict;
 use crate::settings::Settings;
 use crate::sheets::{self, Laying, Sheet};
@@ -69,10 +68,11 @@ pub fn fabricate(
     }
     let no_such_hub = no_such_hub(&structure, &job.settings.hub_nodes);
     job.findings.extend(no_such_hub.map(Finding::from));
-    job.judge(&structure, watch)?;
+    let plan = plan(&structure, &job.settings);
+    job.judge(&plan, watch)?;
     watch.progress("parts", 0, 1);
     let name = structure.name().to_owned();
-    job.cut(structure);
+    job.cut(plan);
     watch.unless_stopped()?;
     job.lay_on_sheets(name, watch)?;
     Ok(job)
@@ -92,10 +92,10 @@ pub fn coupon(settings: Settings, watch: &mut dyn Watch) -> Result<Fabrication, 
 }
 
 /// A node that should get a hub and is not there.
-fn no_such_hub(structure: &Structure, hub_nodes: &[NodeId]) -> Option<ConnectorFinding> {
+fn no_such_hub(structure: &Structure, hub_nodes: &[NodeId]) -> Option<PartFinding> {
     let count = structure.nodes().len();
     let node = hub_nodes.iter().copied().find(|node| node.index() >= count)?;
-    Some(ConnectorFinding::NoSuchNode { node, count })
+    Some(PartFinding::NoSuchNode { node, count })
 }
 
 impl Fabrication {
@@ -120,15 +120,11 @@ impl Fabrication {
         self.parts.iter().any(|part| is(&part.body))
     }
 
-    /// Judges the structure and notes what forbids cutting.
-    fn judge(
-        &mut self,
-        structure: &Structure,
-        watch: &mut dyn Watch,
-    ) -> Result<(), Stopped> {
-        match criteria(structure, &self.settings.template) {
+    /// Judges the plan and notes what forbids cutting.
+    fn judge(&mut self, plan: &Plan, watch: &mut dyn Watch) -> Result<(), Stopped> {
+        match criteria(&plan.structure, &self.settings.template) {
             Ok(criteria) => {
-                let verdict = verdict(structure, &self.settings, &criteria, watch)?;
+                let verdict = verdict(plan, &self.settings, &criteria, watch)?;
                 let accepted = self.settings.accepted_flexible.as_deref();
                 self.findings.extend(judged(&verdict, accepted));
                 self.verdict = Some(verdict);
@@ -138,8 +134,8 @@ impl Fabrication {
         watch.unless_stopped()
     }
 
-    /// Makes the structure into parts.
-    fn cut(&mut self, structure: Structure) {
+    /// Makes the parts of the plan.
+    fn cut(&mut self, plan: Plan) {
         let settings = &self.settings;
         let fits = |outline: &[Point2]| {
             let drawn =
@@ -150,16 +146,11 @@ impl Fabrication {
         };
         let (fit, marking) = (&settings.fit, settings.marking);
         let making = Making { fit, marking, fits: &fits };
-        let made = match settings.joint {
-            Joint::Lap => parts::strips(&structure, &settings.hub_nodes, &making),
-            Joint::Hinge | Joint::Hub => {
-                parts::connected(&structure, &|node| settings.has_hub(node), &making)
-            }
-        };
+        let made = parts::make(&plan, &making);
         self.findings.extend(made.findings);
-        let tight = parts::tight_insertions(&made.structure, &made.parts, fit);
+        let tight = parts::tight_insertions(&plan.structure, &made.parts, fit);
         self.findings.extend(tight.into_iter().map(Finding::from));
-        self.structure = Some(made.structure);
+        self.structure = Some(plan.structure);
         (self.parts, self.steps) = (made.parts, made.steps);
     }
 

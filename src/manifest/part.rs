@@ -3,6 +3,7 @@
 use crate::geometry::Point2;
 use crate::manifest::points;
 use crate::manifest::run::RunEntry;
+use crate::parts::PlateForm;
 use serde::{Deserialize, Serialize};
 
 /// A part. What it is in the structure stands under `strip`, `fin` or `connector`.
@@ -64,6 +65,15 @@ pub enum ConnectorKind {
     Hub,
     /// Plates with an eye, glued into the ends of fins.
     Hinge,
+}
+
+impl From<PlateForm> for ConnectorKind {
+    fn from(form: PlateForm) -> Self {
+        match form {
+            PlateForm::Disc { .. } => Self::Hub,
+            PlateForm::Eye { .. } => Self::Hinge,
+        }
+    }
 }
 
 /// The plates of a node.

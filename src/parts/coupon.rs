@@ -11,9 +11,10 @@ use crate::geometry::{Contour, Point2, Region, Vector2};
 use crate::ids::NodeId;
 use crate::lettering::{letter, width};
 use crate::parts::fit::Fit;
-use crate::parts::lap::join::{End, Opening, Slit};
-use crate::parts::outline::{Closure, Piece, outline};
-use crate::parts::part::{Body, Mark as Engraved, MarkKind, Part};
+use crate::parts::mark::{Mark, MarkKind};
+use crate::parts::outline::{Closure, End, Piece, outline};
+use crate::parts::part::{Body, Part};
+use crate::parts::slit::{Opening, Slit};
 use crate::parts::unfold::FlatAxis;
 use std::collections::BTreeMap;
 
@@ -37,7 +38,7 @@ const PLUG: f64 = 10.0;
 
 /// A notch or slit that fitted: its number and the letter of its piece, as in `3b`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Mark {
+pub struct CouponMark {
     /// From 1, left to right.
     pub number: usize,
     /// The piece.
@@ -53,7 +54,7 @@ pub struct Fitted {
     pub clearance: f64,
 }
 
-impl std::str::FromStr for Mark {
+impl std::str::FromStr for CouponMark {
     type Err = String;
 
     fn from_str(text: &str) -> Result<Self, Self::Err> {
@@ -75,7 +76,7 @@ impl std::str::FromStr for Mark {
     }
 }
 
-impl Mark {
+impl CouponMark {
     /// Steps from the middle one.
     fn steps(self, count: usize) -> f64 {
         self.number as f64 - (count / 2 + 1) as f64
@@ -87,7 +88,7 @@ impl Fitted {
     ///
     /// A slit on the coupon is wider than drawn by what the kerf was taken too small, so the
     /// clearance grows by it; several slits are averaged.
-    pub fn read(made: Self, marks: &[Mark]) -> Self {
+    pub fn read(made: Self, marks: &[CouponMark]) -> Self {
         let mean = |values: Vec<f64>| {
             (!values.is_empty()).then(|| values.iter().sum::<f64>() / values.len() as f64)
         };
@@ -124,7 +125,7 @@ fn trimmed(mm: f64) -> String {
 }
 
 fn piece(name: char, outline: Contour, texts: Vec<Vec<Vec<Point2>>>) -> Part {
-    let mark = |strokes| Engraved { kind: MarkKind::Engrave, strokes };
+    let mark = |strokes| Mark { kind: MarkKind::Engrave, strokes };
     Part {
         id: name.to_string(),
         quantity: 1,
@@ -254,7 +255,8 @@ mod tests {
     const MADE: Fitted = Fitted { kerf: 0.18, clearance: 0.1 };
 
     fn read(marks: &str) -> Fitted {
-        let marks: Vec<Mark> = marks.split(',').map(|m| m.parse().unwrap()).collect();
+        let marks: Vec<CouponMark> =
+            marks.split(',').map(|m| m.parse().unwrap()).collect();
         Fitted::read(MADE, &marks)
     }
 
@@ -289,8 +291,8 @@ mod tests {
     #[test]
     fn places_that_are_not_on_the_coupon_are_told() {
         for wrong in ["", "a", "0a", "10a", "8b", "3f", "b3", "é"] {
-            assert!(wrong.parse::<Mark>().is_err(), "{wrong}");
+            assert!(wrong.parse::<CouponMark>().is_err(), "{wrong}");
         }
-        assert_eq!("3B".parse(), Ok(Mark { number: 3, piece: 'b' }));
+        assert_eq!("3B".parse(), Ok(CouponMark { number: 3, piece: 'b' }));
     }
 }

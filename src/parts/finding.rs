@@ -1,14 +1,35 @@
-//! What can be wrong with connectors.
+//! What can be wrong with parts, whatever joins them.
 
 use crate::diagnostic::{Located, Place, short};
 use crate::ids::NodeId;
 use miette::Diagnostic;
 use thiserror::Error;
 
-/// A fact found while making single fins and their connectors.
+/// A fact found while making parts.
 #[derive(Debug, Clone, PartialEq, Error, Diagnostic)]
 #[allow(missing_docs, reason = "each variant's message says what its fields are")]
-pub enum ConnectorFinding {
+pub enum PartFinding {
+    #[error(
+        "half of the fins are shorter than {} mm, but a slit and the web beside it take {} mm \
+         of a sheet of {} mm; the whole structure is {size}",
+        short(*median_mm), short(2.0 * thickness_mm), short(*thickness_mm)
+    )]
+    #[diagnostic(
+        code(parts::model_too_small),
+        help(
+            "if it was drawn in another unit, say so (an OBJ file is read as mm: try \
+             `--units m --scale 1:50`); else enlarge it (`--scale 10:1`) or use a thinner sheet"
+        )
+    )]
+    ModelTooSmall { median_mm: f64, thickness_mm: f64, size: String },
+
+    #[error("the cut line of {part} would cross itself near node {node}")]
+    #[diagnostic(
+        code(parts::outline_crosses_itself),
+        help("slits and edges are too near each other; enlarge the structure")
+    )]
+    OutlineCrossesItself { part: String, node: NodeId },
+
     #[error(
         "{} and {} leave node {node} at {angle_deg:.1}°; they would have to stop {setback_mm:.1} \
          mm from the axis",
@@ -137,7 +158,7 @@ fn some(parts: &[String]) -> String {
     }
 }
 
-impl Located for ConnectorFinding {
+impl Located for PartFinding {
     fn place(&self) -> Place {
         match self {
             Self::AngleTooSmall { fins, node, .. } => {
@@ -150,7 +171,10 @@ impl Located for ConnectorFinding {
             Self::AxisTooShort { node, .. } | Self::DiscTooLarge { node, .. } => {
                 Place::nodes([*node])
             }
-            Self::NoSuchNode { .. } => Place::default(),
+            Self::ModelTooSmall { .. } | Self::NoSuchNode { .. } => Place::default(),
+            Self::OutlineCrossesItself { part, node } => {
+                Place::part(part.clone()).at(*node)
+            }
             Self::Unlettered { parts, .. } => {
                 Place { parts: parts.clone(), ..Place::default() }
             }

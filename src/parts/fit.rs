@@ -46,7 +46,7 @@ pub struct Fit {
 
 impl Fit {
     /// How far from the axis a fin stays clear of another one at the angle `between`
-    /// (0, π) to it, both as thick as the sheet (docs/formulas.md §2.1).
+    /// (0, π) to it, both as thick as the sheet.
     pub fn clear_distance(&self, between: f64) -> f64 {
         crate::parts::setback::clear_of(self.thickness, self.thickness, between)
     }

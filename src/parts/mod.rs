@@ -1,13 +1,19 @@
-//! From a structure in space to one flat part each.
+//! From a structure in space to flat parts.
 //!
-//! [`strips`] unfolds every strip, cuts the slits where strips cross, rounds and flares
-//! them, splices what is too long for the stock and writes on each part what the maker
-//! needs. Kerf is not its business, nor where parts lie on a sheet.
+//! [`plan`] says, once per job, how fins are grouped and what holds them; [`make`] makes the
+//! parts of a plan and the steps in which they go together. A joint is a folder: `lap` for
+//! strips that are slit into each other, `hub` and `hinge` for single fins with connectors on
+//! the nodes. What all share stands beside them. Kerf is not the business of parts, nor
+//! where they lie on a sheet.
 
 mod assembly;
+mod cell;
+mod chain;
 mod clearance;
 mod connector;
+mod connectors;
 mod coupon;
+mod end;
 mod fin;
 mod finding;
 mod fit;
@@ -17,42 +23,37 @@ mod lap;
 mod mark;
 mod outline;
 mod part;
+mod plan;
+mod plate;
 mod setback;
+mod slit;
 mod star;
 mod steps;
 mod unfold;
 
-pub use assembly::built::{Built, Form, Hit, Plates, Role, Snug, collisions};
-pub use assembly::collisions::together;
-pub use assembly::copy::{Copy, copies};
-pub use connector::{Connector, connected, levers};
-pub use coupon::{Fitted, Mark as CouponMark, coupon};
-pub use finding::ConnectorFinding;
+pub use assembly::{
+    AssembledPart, Collision, Member, NodePlates, SlotFit, collide, collisions,
+};
+pub use coupon::{CouponMark, Fitted, coupon};
+pub use finding::PartFinding;
 pub use fit::Fit;
-pub use hinge::plate::Hinge;
-pub use hub::dimensions::{Hub, inner_radius};
-pub use lap::bend::bends;
-pub use lap::finding::PartFinding;
-pub use lap::insertion::{Insertion, insertion};
-pub use lap::join::{End, Joinery, Joints, Opening, Slit, join};
-pub use lap::placement::{Hubs, Lapped, lapped};
-pub use mark::{FoldMarks, Marking};
-pub use outline::{Closure, HeldEnd, Piece, outline};
-pub use part::{Body, ConnectorBody, FinBody, Mark, MarkKind, Part, StripBody, Tip};
-pub use setback::{clear_of, setback};
-pub use star::{Around, Spoke};
+pub use hub::inner_radius;
+pub use lap::{Insertion, LapFinding, bends, insertion, tight_insertions};
+pub use mark::{Mark, MarkKind, Marking};
+pub use part::{Body, ConnectorBody, FinBody, Part, StripBody, Tip};
+pub use plan::Plan;
+pub use plate::{PlacedPlate, PlateForm, Plates};
+pub use slit::{Opening, Slit};
+pub use star::{IncidentFin, Star};
 pub use steps::{Step, steps};
-pub use unfold::{FlatAxis, FlatStrip, Fold, unfold};
+pub use unfold::{FlatAxis, Fold};
 
 use crate::diagnostic::Finding;
-use crate::geometry::{Point2, Region, predicates};
+use crate::geometry::Point2;
 use crate::ids::NodeId;
+use crate::joint::Joint;
 use crate::structure::Structure;
-use crate::tolerance::ARC_SAGITTA_MM;
-use lap::placement::{Plan, plan};
-use lap::splice::{self, Whole};
-use lap::strength::{self, Slitted};
-use std::collections::BTreeMap;
+use part::crossing_outline;
 
 /// What parts are made for.
 pub struct Making<'a> {
@@ -64,19 +65,59 @@ pub struct Making<'a> {
     pub fits: &'a dyn Fn(&[Point2]) -> bool,
 }
 
-/// A structure as parts.
+/// The parts of a plan.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Made {
-    /// The structure with its strips as they were cut: closed ones opened at their
-    /// smallest fold, those that would lie over themselves or run through discs split.
-    pub structure: Structure,
     /// Strips in the order of assembly, or fins in that of the structure; then connectors in
     /// the order of nodes.
     pub parts: Vec<Part>,
     /// In which order they go together.
     pub steps: Vec<Step>,
-    /// Everything found on the way.
+    /// Everything found while planning and making.
     pub findings: Vec<Finding>,
+}
+
+/// Fins or strips as parts, on their way to connectors.
+struct Bodies {
+    parts: Vec<Part>,
+    /// How many of its texts found no room on each.
+    unlettered: Vec<(String, usize)>,
+    findings: Vec<Finding>,
+}
+
+/// The plan of a structure with a joint; the nodes `hub_nodes` get hubs, whatever else the
+/// joint asks for.
+pub fn plan(
+    structure: &Structure,
+    joint: Joint,
+    hub_nodes: &[NodeId],
+    fit: &Fit,
+) -> Plan {
+    match joint {
+        Joint::Lap => lap::plan(structure, hub_nodes, fit),
+        Joint::Hinge => hinge::plan(structure, hub_nodes, fit),
+        Joint::Hub => hub::plan(structure, hub_nodes, fit),
+    }
+}
+
+/// Makes the parts of a plan.
+pub fn make(plan: &Plan, making: &Making) -> Made {
+    let bodies = match &plan.strips {
+        Some(strips) => lap::parts(strips, making),
+        None => fin::parts(plan, making),
+    };
+    let Bodies { mut parts, unlettered, findings: of_bodies } = bodies;
+    let crossing = parts.iter().filter_map(crossing_outline).map(Finding::from);
+    let crossing: Vec<Finding> = crossing.collect();
+    let of_plates = connectors::add_plates(plan, making, &mut parts, unlettered);
+    let mut findings = [plan.findings.clone(), of_bodies].concat();
+    // Where fins have connectors, their room comes first: it decides how fins are cut.
+    if plan.strips.is_some() {
+        findings.extend(crossing.into_iter().chain(of_plates));
+    } else {
+        findings.extend(of_plates.into_iter().chain(crossing));
+    }
+    Made { steps: steps(&parts), parts, findings }
 }
 
 /// Says that a structure is too small for the sheet, rather than that each of its parts is:
@@ -93,140 +134,4 @@ pub fn too_small(structure: &Structure, fit: &Fit) -> Option<PartFinding> {
         thickness_mm,
         size,
     })
-}
-
-/// Makes the parts of a structure whose strips are half-lapped; the nodes `asked` get hubs,
-/// and so do those where ends of strips cannot lap.
-pub fn strips(structure: &Structure, asked: &[NodeId], making: &Making) -> Made {
-    let plan = plan(structure, asked, making.fit);
-    let Plan { structure, flat, joinery, hubs, findings } = &plan;
-    let mut findings: Vec<Finding> =
-        findings.iter().cloned().map(Finding::from).collect();
-    let mut parts = Vec::new();
-    for (rank, &strip) in joinery.order.iter().enumerate() {
-        let name = joinery.names[strip].as_str();
-        let (flat, joints) = (&flat[strip], &joinery.joints[strip]);
-        let slitted =
-            Slitted { name, strip: flat, slits: &joints.slits, fit: making.fit };
-        findings.extend(strength::weaknesses(&slitted).into_iter().map(Finding::from));
-        let whole = Whole { name, strip: flat, joints, fit: making.fit, hubs };
-        let pieces = splice::pieces(&whole, making.fits).unwrap_or_else(|finding| {
-            findings.push(finding.into());
-            vec![whole.uncut()]
-        });
-        let seat = Seat { strip, rank, flat, making, name };
-        parts.extend(seat.parts(pieces));
-    }
-    name_partners(&mut parts, &joinery.names);
-    findings.extend(parts.iter().filter_map(crossing_outline).map(Finding::from));
-    findings.extend(connector::discs(&plan, &mut parts, making));
-    let structure = structure.clone();
-    Made { steps: steps(&parts), structure, parts, findings }
-}
-
-/// A strip on its way to parts.
-struct Seat<'a> {
-    strip: usize,
-    rank: usize,
-    flat: &'a FlatStrip,
-    making: &'a Making<'a>,
-    name: &'a str,
-}
-
-impl Seat<'_> {
-    fn parts(&self, pieces: Vec<Piece>) -> Vec<Part> {
-        let count = pieces.len();
-        let mut first = 0;
-        let mut parts = Vec::new();
-        for (k, piece) in pieces.into_iter().enumerate() {
-            let id = match count {
-                1 => self.name.to_owned(),
-                _ => format!("{}{}", self.name, piece_letter(k)),
-            };
-            let axes = piece.axes.len();
-            parts.push(self.part(id, piece, first));
-            first += axes;
-        }
-        parts
-    }
-
-    fn part(&self, id: String, piece: Piece, first: usize) -> Part {
-        let all = &self.flat.axes;
-        let after = first + piece.axes.len();
-        let inner = (first.max(1)..after.min(all.len() - 1)).map(|k| k - 1);
-        let folds: Vec<Fold> = inner.map(|k| self.flat.folds[k]).collect();
-        let splice = |k: usize| [all[k - 1].node, all[k].node];
-        let left = (first > 0).then(|| splice(first));
-        let right = (after < all.len()).then(|| splice(after));
-        let marks = mark::marks(&piece, &id, &folds, self.making.marking);
-        let outline = outline(&piece, self.making.fit);
-        let body = StripBody {
-            strip: self.strip,
-            folds,
-            slits: piece.slits.values().map(|slit| (*slit, String::new())).collect(),
-            splices: left.into_iter().chain(right).collect(),
-            closed: self.flat.closed && left.is_none() && right.is_none(),
-            rank: self.rank,
-            setbacks: [0, 1].map(|end| piece.closures[end].setback()),
-            axes: piece.axes,
-        };
-        let region = Region { outline, holes: Vec::new() };
-        Part { id, quantity: 1, region, marks, body: Body::Strip(body) }
-    }
-}
-
-/// a, b, ... z, aa, ab, ...
-fn piece_letter(k: usize) -> String {
-    let letter = char::from(b'a' + (k % 26) as u8);
-    if k < 26 {
-        letter.to_string()
-    } else {
-        format!("{}{letter}", piece_letter(k / 26 - 1))
-    }
-}
-
-/// Tells each slit which part comes into it: of a spliced strip, the piece at that node.
-fn name_partners(parts: &mut [Part], names: &[String]) {
-    let mut at: BTreeMap<(usize, NodeId), String> = BTreeMap::new();
-    for part in parts.iter() {
-        let Body::Strip(body) = &part.body else { continue };
-        at.extend(
-            body.slits.iter().map(|(s, _)| ((body.strip, s.node), part.id.clone())),
-        );
-    }
-    for part in parts {
-        let Body::Strip(body) = &mut part.body else { continue };
-        for (slit, partner) in &mut body.slits {
-            let piece = at.get(&(slit.partner, slit.node));
-            *partner = piece.unwrap_or(&names[slit.partner]).clone();
-        }
-    }
-}
-
-/// Strips that bend more tightly while they are put in than a model should.
-pub fn tight_insertions(
-    structure: &Structure,
-    parts: &[Part],
-    fit: &Fit,
-) -> Vec<PartFinding> {
-    let tight = parts.iter().filter_map(|part| {
-        let Body::Strip(body) = &part.body else { return None };
-        let (radius_mm, node) = insertion(structure, body, fit.clearance)?.bend?;
-        let ratio = radius_mm / fit.thickness;
-        let (part, limit) = (part.id.clone(), fit.bend_model);
-        (ratio < limit).then_some(PartFinding::InsertionTight {
-            part,
-            node,
-            radius_mm,
-            ratio,
-            limit,
-        })
-    });
-    tight.collect()
-}
-
-fn crossing_outline(part: &Part) -> Option<PartFinding> {
-    let simple = predicates::is_simple(&part.region.outline.flattened(ARC_SAGITTA_MM));
-    let node = *part.body.nodes().first()?;
-    (!simple).then(|| PartFinding::OutlineCrossesItself { part: part.id.clone(), node })
 }

@@ -1,15 +1,29 @@
 //! The outline of a flat strip: its edges with slits cut into them, its two ends.
 
 use crate::geometry::{Contour, Point2, Vector2, Vertex, trig};
+use crate::parts::chain::reversed;
 use crate::parts::fit::Fit;
-use crate::parts::lap::join::{End, Opening, Slit};
+use crate::parts::slit::{Opening, Slit};
 use crate::parts::unfold::FlatAxis;
 use std::collections::BTreeMap;
 use std::f64::consts::FRAC_PI_8;
 
+/// What becomes of one end of a strip.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) enum End {
+    /// It stops on the axis; no other strip is there.
+    Free,
+    /// It runs past the axis by this much and laps.
+    Overhang(f64),
+    /// It stops this far before the axis and is not held.
+    SetBack(f64),
+    /// It stops this far before the axis and stands in discs.
+    Held(f64),
+}
+
 /// What closes a strip (or a piece of one) at its left or right.
 #[derive(Debug, Clone, PartialEq)]
-pub enum Closure {
+pub(crate) enum Closure {
     /// One of the strip's own ends.
     End(End),
     /// A cut through the fin beyond, from the bottom edge to the top edge; its first and
@@ -21,7 +35,7 @@ pub enum Closure {
 
 /// An end of a strip that stands in discs.
 #[derive(Debug, Clone, PartialEq)]
-pub struct HeldEnd {
+pub(crate) struct HeldEnd {
     /// From the bottom edge over the end edge to the top edge.
     pub cut: Vec<Vertex>,
     /// Where the end edge is, from the axis, mm.
@@ -52,7 +66,7 @@ impl Closure {
 
 /// A run of node axes with its slits (by place in `axes`) and closures.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Piece {
+pub(crate) struct Piece {
     /// The node axes.
     pub axes: Vec<FlatAxis>,
     /// Slits by place.
@@ -87,7 +101,7 @@ struct Notch {
 }
 
 /// The outline of a piece, counter-clockwise: bottom edge, right end, top edge, left end.
-pub fn outline(piece: &Piece, fit: &Fit) -> Contour {
+pub(crate) fn outline(piece: &Piece, fit: &Fit) -> Contour {
     let [left, right] = [Way::Left, Way::Right].map(|way| ends(piece, way));
     let bottom = edge(piece, Opening::Bottom, &left, &right);
     let mut top = edge(piece, Opening::Top, &left, &right);
@@ -106,24 +120,6 @@ pub fn outline(piece: &Piece, fit: &Fit) -> Contour {
 /// A cut without its two ends, which belong to the edges.
 fn inner(cut: &[Vertex]) -> Vec<Vertex> {
     cut.get(1..cut.len().saturating_sub(1)).unwrap_or_default().to_vec()
-}
-
-/// A chain of corners walked the other way.
-pub(crate) fn reversed(chain: &[Vertex]) -> Vec<Vertex> {
-    let count = chain.len();
-    let bulge = |k: usize| if k > 0 { -chain[k - 1].bulge } else { 0.0 };
-    (0..count).rev().map(|k| Vertex::arc(chain[k].point, bulge(k))).collect()
-}
-
-/// Takes out corners that lie on the one before, as where a relief has no radius.
-pub(crate) fn without_doubles(chain: &mut Vec<Vertex>) {
-    chain.dedup_by(|after, before| {
-        let same = after.point == before.point;
-        if same {
-            before.bulge = after.bulge;
-        }
-        same
-    });
 }
 
 /// Where the edges stop at one end of a piece.

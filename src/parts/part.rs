@@ -1,11 +1,14 @@
 //! A part: one flat shape to be cut, with its marks and its way back into space.
 
-use crate::geometry::{Point2, Region, Vector2};
+use crate::geometry::{Region, Vector2, predicates};
 use crate::ids::NodeId;
-use crate::parts::assembly::copy::Copy;
-use crate::parts::connector::Connector;
-use crate::parts::lap::join::Slit;
+use crate::parts::finding::PartFinding;
+use crate::parts::mark::Mark;
+use crate::parts::plate::Plates;
+use crate::parts::slit::Slit;
+use crate::parts::star::Star;
 use crate::parts::unfold::{FlatAxis, Fold};
+use crate::tolerance::ARC_SAGITTA_MM;
 
 /// A flat shape of sheet material, nominal: kerf is not in it yet. Its labelled face
 /// looks at the reader.
@@ -128,20 +131,24 @@ pub struct FinBody {
 /// eye's only one.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ConnectorBody {
-    /// What they are.
-    pub connector: Connector,
-    /// Names of the parts whose fins it holds, in the order of the connector's spokes.
+    /// The node and the fins that it holds.
+    pub star: Star,
+    /// Names of the parts with these fins, in their order.
     pub fins: Vec<String>,
-    /// Diameter of the rod through them, mm.
+    /// Its plates.
+    pub plates: Plates,
+    /// How far it reaches along a fin, from the axis, mm.
+    pub reach: f64,
+    /// Diameter of the rod through its plates, mm.
     pub rod: f64,
-    /// Where they sit, from below.
-    pub copies: Vec<Copy>,
+    /// How it goes together with its fins, in sentences.
+    pub words: String,
 }
 
 impl ConnectorBody {
     /// The node.
-    pub fn node(&self) -> NodeId {
-        self.connector.around().node
+    pub const fn node(&self) -> NodeId {
+        self.star.node
     }
 }
 
@@ -167,20 +174,9 @@ pub struct StripBody {
     pub setbacks: [f64; 2],
 }
 
-/// Something drawn on a part.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Mark {
-    /// How it is made.
-    pub kind: MarkKind,
-    /// Chains of straight lines in part coordinates.
-    pub strokes: Vec<Vec<Point2>>,
-}
-
-/// How a mark is made.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum MarkKind {
-    /// Burnt into the surface.
-    Engrave,
-    /// Cut part of the way through.
-    Score,
+/// Says that a cut line crosses itself.
+pub(crate) fn crossing_outline(part: &Part) -> Option<PartFinding> {
+    let simple = predicates::is_simple(&part.region.outline.flattened(ARC_SAGITTA_MM));
+    let node = *part.body.nodes().first()?;
+    (!simple).then(|| PartFinding::OutlineCrossesItself { part: part.id.clone(), node })
 }

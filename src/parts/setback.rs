@@ -2,7 +2,7 @@
 //!
 //! Seen along the axis every fin is a bar that starts on the axis. Two bars of thicknesses
 //! t and u at the angle b meet in a corner; the first is clear of the second from
-//! r = (u + t cos b) / (2 sin b) on (docs/formulas.md §2.1, §2.4). For equal plates this
+//! r = (u + t cos b) / (2 sin b) on. For equal plates this
 //! is t / (2 tan(b/2)), and nothing from 180° on.
 
 use crate::geometry::trig;
@@ -10,7 +10,7 @@ use std::f64::consts::PI;
 
 /// Distance from the axis at which a plate of `thickness` is clear of one of
 /// `other_thickness` that leaves the axis at the angle `between`, radians in (0, 2π); mm.
-pub fn clear_of(thickness: f64, other_thickness: f64, between: f64) -> f64 {
+pub(crate) fn clear_of(thickness: f64, other_thickness: f64, between: f64) -> f64 {
     let between = between.min(2.0 * PI - between);
     let sin = trig::sin(between);
     if sin <= 0.0 {
@@ -21,7 +21,7 @@ pub fn clear_of(thickness: f64, other_thickness: f64, between: f64) -> f64 {
 
 /// Distance from the axis at which the plate at place `me` is clear of all others, which
 /// leave the axis at the `bearings`, radians; all plates are `thickness` thick; mm.
-pub fn setback(bearings: &[f64], me: usize, thickness: f64) -> f64 {
+pub(crate) fn setback(bearings: &[f64], me: usize, thickness: f64) -> f64 {
     let others = bearings.iter().enumerate().filter(|&(other, _)| other != me);
     let clear = others.map(|(_, bearing)| {
         let between = (bearing - bearings[me]).rem_euclid(2.0 * PI);

@@ -1,4 +1,4 @@
-//! The fins of a node as its connector sees them.
+//! The star of a node: its fins as what holds them there sees them.
 
 use crate::geometry::{Point3, Vector2};
 use crate::ids::{FinId, NodeId};
@@ -9,14 +9,14 @@ use crate::structure::Structure;
 use std::collections::BTreeMap;
 use std::f64::consts::PI;
 
-/// A fin as its connector sees it.
+/// A fin at one of its nodes.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Spoke {
+pub struct IncidentFin {
     /// Index of the fin in the structure.
-    pub fin: usize,
+    pub index: usize,
     /// The node at the fin's other end.
     pub to: NodeId,
-    /// Counter-clockwise from the first spoke seen from above, radians in [0, 2π).
+    /// Counter-clockwise from the first fin seen from above, radians in [0, 2π).
     pub bearing: f64,
     /// Rise of the fin's bottom and top edge per length across the axis.
     pub rise: [f64; 2],
@@ -24,78 +24,93 @@ pub struct Spoke {
     pub clear: f64,
 }
 
-/// A node with the fins that meet there.
+/// A node with the fins that meet there (its star, as complexes of cells have it).
 #[derive(Debug, Clone, PartialEq)]
-pub struct Around {
+pub struct Star {
     /// The node.
     pub node: NodeId,
     /// How far its axis reaches below and above the base mesh, mm.
     pub reach: [f64; 2],
     /// Its fins, counter-clockwise seen from above.
-    pub spokes: Vec<Spoke>,
+    pub fins: Vec<IncidentFin>,
     /// The least length across the axes of its fins, mm.
     pub shortest: f64,
 }
 
-impl Around {
-    /// The fins around a node; `None` if fewer than two meet there.
-    pub fn new(
+impl Star {
+    /// All stars of a structure with two fins or more, in the order of nodes.
+    pub(crate) fn all(structure: &Structure, fit: &Fit) -> impl Iterator<Item = Self> {
+        let index = indices(structure);
+        let star = move |node| Self::of(structure, &index, node, fit);
+        structure.mesh().nodes().filter_map(star)
+    }
+
+    /// The star of a node; `None` if fewer than two fins meet there.
+    pub(crate) fn of(
         structure: &Structure,
-        fins: &BTreeMap<FinId, usize>,
+        fins: &FinIndices,
         node: NodeId,
         fit: &Fit,
     ) -> Option<Self> {
-        let spokes = spokes(structure, fins, node, fit);
+        let fins = incident(structure, fins, node, fit);
         let at = &structure.nodes()[node];
-        let lengths = spokes.iter().map(|spoke| shortest(structure, [node, spoke.to]));
+        let lengths = fins.iter().map(|fin| shortest(structure, [node, fin.to]));
         let shortest = lengths.fold(f64::INFINITY, f64::min);
         let reach = [at.below, at.above];
-        (spokes.len() > 1).then_some(Self { node, reach, spokes, shortest })
+        (fins.len() > 1).then_some(Self { node, reach, fins, shortest })
     }
 
     /// Lowest and highest level that all fins reach from the axis up to `out` from it.
-    pub fn sunk(&self, out: f64) -> [f64; 2] {
+    pub(crate) fn shared_span(&self, out: f64) -> [f64; 2] {
         let sunk = |rise: f64| (rise * out).max(0.0);
-        let spokes = || self.spokes.iter();
-        let lowest = spokes().map(|spoke| sunk(spoke.rise[0])).fold(0.0, f64::max);
-        let highest = spokes().map(|spoke| sunk(-spoke.rise[1])).fold(0.0, f64::max);
+        let fins = || self.fins.iter();
+        let lowest = fins().map(|fin| sunk(fin.rise[0])).fold(0.0, f64::max);
+        let highest = fins().map(|fin| sunk(-fin.rise[1])).fold(0.0, f64::max);
         [lowest - self.reach[0], self.reach[1] - highest]
     }
 
-    /// The spoke of a fin.
-    pub fn spoke(&self, fin: usize) -> Option<&Spoke> {
-        self.spokes.iter().find(|spoke| spoke.fin == fin)
+    /// A fin by its index in the structure.
+    pub(crate) fn fin(&self, index: usize) -> Option<&IncidentFin> {
+        self.fins.iter().find(|fin| fin.index == index)
+    }
+
+    /// Angle from each fin to the next, counter-clockwise, radians.
+    pub(crate) fn sectors(&self) -> Vec<f64> {
+        let next = self.fins.iter().cycle().skip(1);
+        let pairs = self.fins.iter().zip(next);
+        pairs.map(|(a, b)| (b.bearing - a.bearing).rem_euclid(2.0 * PI)).collect()
     }
 }
 
-/// Angle from each fin to the next, counter-clockwise, radians.
-pub(crate) fn sectors(spokes: &[Spoke]) -> Vec<f64> {
-    let next = spokes.iter().cycle().skip(1);
-    let pairs = spokes.iter().zip(next);
-    pairs.map(|(a, b)| (b.bearing - a.bearing).rem_euclid(2.0 * PI)).collect()
+/// The fins of a structure by their nodes.
+pub(crate) type FinIndices = BTreeMap<FinId, usize>;
+
+/// The index of each fin.
+pub(crate) fn indices(structure: &Structure) -> FinIndices {
+    structure.fins().iter().enumerate().map(|(k, fin)| (*fin, k)).collect()
 }
 
-fn spokes(
+fn incident(
     structure: &Structure,
-    fins: &BTreeMap<FinId, usize>,
+    fins: &FinIndices,
     node: NodeId,
     fit: &Fit,
-) -> Vec<Spoke> {
+) -> Vec<IncidentFin> {
     let around = &structure.nodes()[node];
     let angles: Vec<f64> = around.arms.iter().map(|arm| arm.angle).collect();
     let arms = around.arms.iter().enumerate();
-    let spokes = arms.filter_map(|(place, arm)| {
+    let incident = arms.filter_map(|(place, arm)| {
         let pair = FinId::between(node, arm.to);
-        let fin = *fins.get(&pair)?;
-        Some(Spoke {
-            fin,
+        let index = *fins.get(&pair)?;
+        Some(IncidentFin {
+            index,
             to: arm.to,
             bearing: (arm.angle - angles[0]).rem_euclid(2.0 * PI),
             rise: rise(structure, node, arm.to),
             clear: setback(&angles, place, fit.thickness),
         })
     });
-    spokes.collect()
+    incident.collect()
 }
 
 /// Rise of a fin's edges in its plane, as it is cut.

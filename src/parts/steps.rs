@@ -1,7 +1,6 @@
 //! In which order fins and discs go together.
 
 use crate::ids::NodeId;
-use crate::parts::connector::Connector;
 use crate::parts::part::{Body, Part};
 use std::collections::BTreeMap;
 
@@ -21,29 +20,29 @@ pub struct Step {
 /// do all eyes of a hinge with their rod; fins follow in the order of a walk over the
 /// structure, so that what stands hangs together.
 pub fn steps(parts: &[Part]) -> Vec<Step> {
-    let mut plan = Plan::new(parts);
+    let mut sequence = Sequence::new(parts);
     for (index, part) in parts.iter().enumerate() {
         let Body::Strip(strip) = &part.body else { continue };
         if strip.slits.is_empty() {
             let nodes = part.body.tips().into_iter().map(|tip| tip.axis.node);
-            plan.lay_below(nodes);
+            sequence.lay_below(nodes);
         }
-        plan.steps.push(Step { part: index, copies: [1, 1] });
+        sequence.steps.push(Step { part: index, copies: [1, 1] });
     }
-    for fin in walk(parts, &plan.at) {
+    for fin in walk(parts, &sequence.at) {
         let Body::Fin(body) = &parts[fin].body else { continue };
-        plan.lay_below(body.nodes.into_iter());
-        plan.steps.push(Step { part: fin, copies: [1, 1] });
+        sequence.lay_below(body.nodes.into_iter());
+        sequence.steps.push(Step { part: fin, copies: [1, 1] });
         for node in body.nodes {
-            plan.stand(node);
+            sequence.stand(node);
         }
     }
-    plan.close();
-    plan.steps
+    sequence.close();
+    sequence.steps
 }
 
 /// Steps as they are put together.
-struct Plan<'a> {
+struct Sequence<'a> {
     parts: &'a [Part],
     steps: Vec<Step>,
     /// Fins by their nodes.
@@ -52,11 +51,11 @@ struct Plan<'a> {
     left: BTreeMap<NodeId, usize>,
     /// Connectors that are not finished, by node.
     open: BTreeMap<NodeId, usize>,
-    /// Hubs whose lower disc is still to come, by node.
+    /// Connectors whose lower plates are still to come, by node.
     lower: BTreeMap<NodeId, usize>,
 }
 
-impl<'a> Plan<'a> {
+impl<'a> Sequence<'a> {
     fn new(parts: &'a [Part]) -> Self {
         let mut at: BTreeMap<NodeId, Vec<usize>> = BTreeMap::new();
         let (mut open, mut lower) = (BTreeMap::new(), BTreeMap::new());
@@ -67,10 +66,10 @@ impl<'a> Plan<'a> {
                         .iter()
                         .for_each(|node| at.entry(*node).or_default().push(index));
                 }
-                Body::Connector(body) => {
-                    open.insert(body.node(), index);
-                    if matches!(body.connector, Connector::Hub(_)) {
-                        lower.insert(body.node(), index);
+                Body::Connector(connector) => {
+                    open.insert(connector.node(), index);
+                    if connector.plates.laid_first > 0 {
+                        lower.insert(connector.node(), index);
                     }
                 }
                 Body::Strip(_) | Body::Coupon => {}
@@ -80,11 +79,12 @@ impl<'a> Plan<'a> {
         Self { parts, steps: Vec::new(), at, left, open, lower }
     }
 
-    /// Lays lower discs that are still to come.
+    /// Lays lower plates that are still to come.
     fn lay_below(&mut self, nodes: impl Iterator<Item = NodeId>) {
         for node in nodes {
             let laid = self.lower.remove(&node);
-            self.steps.extend(laid.map(|part| Step { part, copies: [1, 1] }));
+            let copies = |part: usize| [1, laid_first(&self.parts[part])];
+            self.steps.extend(laid.map(|part| Step { part, copies: copies(part) }));
         }
     }
 
@@ -100,13 +100,8 @@ impl<'a> Plan<'a> {
     /// The plates of a node that are still to come.
     fn finish(&mut self, node: NodeId) {
         let Some(part) = self.open.remove(&node) else { return };
-        let is_hub = match &self.parts[part].body {
-            Body::Connector(body) => matches!(body.connector, Connector::Hub(_)),
-            _ => false,
-        };
         self.lay_below(std::iter::once(node));
-        let first = if is_hub { 2 } else { 1 };
-        let copies = [first, self.parts[part].quantity];
+        let copies = [laid_first(&self.parts[part]) + 1, self.parts[part].quantity];
         self.steps.push(Step { part, copies });
     }
 
@@ -114,6 +109,14 @@ impl<'a> Plan<'a> {
     fn close(&mut self) {
         let nodes: Vec<NodeId> = self.open.keys().copied().collect();
         nodes.into_iter().for_each(|node| self.finish(node));
+    }
+}
+
+/// How many plates of a connector must lie there before its fins come.
+fn laid_first(part: &Part) -> usize {
+    match &part.body {
+        Body::Connector(connector) => connector.plates.laid_first,
+        _ => 0,
     }
 }
 

@@ -57,7 +57,7 @@ pub struct Fold {
 
 /// A chain of fins in the plane.
 #[derive(Debug, Clone, PartialEq)]
-pub struct FlatStrip {
+pub(crate) struct FlatStrip {
     /// The node axes in order of travel; the seam of a closed strip is first and last.
     pub axes: Vec<FlatAxis>,
     /// One per inner node.
@@ -67,7 +67,7 @@ pub struct FlatStrip {
 }
 
 /// Unfolds the fins between successive nodes of `chain`.
-pub fn unfold(structure: &Structure, chain: &[NodeId], closed: bool) -> FlatStrip {
+pub(crate) fn unfold(structure: &Structure, chain: &[NodeId], closed: bool) -> FlatStrip {
     let node = |k: usize| &structure.nodes()[chain[k]];
     let flat = |k: usize, foot, up| {
         let (below, above) = (node(k).below, node(k).above);
@@ -125,7 +125,7 @@ impl Motion {
 impl FlatStrip {
     /// Turns the strip so that it runs along x with its axes upward, and moves its lower
     /// left corner to the origin.
-    pub fn turn_along_x(&mut self) {
+    pub(crate) fn turn_along_x(&mut self) {
         let (first, last) = (self.axes[0], self.axes[self.axes.len() - 1]);
         let chord = last.foot - first.foot;
         let upright: Vector2 = self.axes.iter().map(|axis| axis.right()).sum();
@@ -146,13 +146,13 @@ impl FlatStrip {
     }
 
     /// The strip's edge without slits: along the bottom, back along the top.
-    pub fn body(&self) -> Vec<Point2> {
+    pub(crate) fn body(&self) -> Vec<Point2> {
         let bottom = self.axes.iter().map(|axis| axis.bottom());
         bottom.chain(self.axes.iter().rev().map(|axis| axis.top())).collect()
     }
 
     /// Length along the base mesh, mm.
-    pub fn length(&self) -> f64 {
+    pub(crate) fn length(&self) -> f64 {
         run(&self.axes)
     }
 
@@ -166,7 +166,7 @@ impl FlatStrip {
     }
 
     /// Whether the flat strip lies over itself, exactly.
-    pub fn overlaps_itself(&self) -> bool {
+    pub(crate) fn overlaps_itself(&self) -> bool {
         !predicates::is_simple(&self.body())
     }
 }

@@ -7,7 +7,10 @@
 use crate::geometry::{Point2, Vector2};
 use crate::ids::NodeId;
 use crate::manifest::{ConnectorEntry, ConnectorKind, PartEntry, RunEntry};
-use crate::parts::{Built, Copy, FlatAxis, Form, Hit, Plates, Role, Snug, Tip, together};
+use crate::parts::{
+    AssembledPart, Collision, FlatAxis, Member, NodePlates, PlacedPlate, PlateForm,
+    SlotFit, Tip, collide,
+};
 use crate::proof::connectors::Known;
 use crate::proof::finding::{ProofFinding, Spot};
 use crate::proof::matching::Found;
@@ -29,22 +32,22 @@ pub(super) fn check(
     let of = |found: &Found| {
         let place = &read.matching.places[found.place];
         let part = read.matching.shapes[place.shape].part;
-        let role = match (&part.connector, part.run()) {
+        let member = match (&part.connector, part.run()) {
             (Some(connector), _) => plates(&known, connector, found, place.copy)?,
             (None, Some(strip)) => fins(structure, part, strip)?,
             (None, None) => return None,
         };
-        Some(Built { name: &part.id, rings: rings(read, found), role })
+        Some(AssembledPart { name: &part.id, rings: rings(read, found), member })
     };
-    let built: Vec<Built> = read.found.iter().filter_map(of).collect();
+    let built: Vec<AssembledPart> = read.found.iter().filter_map(of).collect();
     let (thickness, clearance) =
         (manifest.material.thickness, manifest.material.clearance);
     // What is wider was measured slot by slot; what counts here is material.
-    let snug = Snug { thickness, clearance: clearance.min(0.0), relief: 0.0 };
+    let slot_fit = SlotFit { thickness, clearance: clearance.min(0.0), relief: 0.0 };
     let blamed = |part: &String| told.iter().any(|fact| fact.spot().parts.contains(part));
-    let hits = together(structure, &built, &snug).into_iter();
+    let hits = collide(structure, &built, &slot_fit).into_iter();
     let news = hits.filter(|hit| !hit.parts.iter().any(blamed));
-    news.map(|Hit { parts, nodes, depth_mm }| {
+    news.map(|Collision { parts, nodes, depth_mm }| {
         let spot = Spot { parts: parts.to_vec(), ..Spot::file("job.json") };
         let spot =
             nodes.first().map_or_else(|| spot.clone(), |n| spot.clone().node(n.index()));
@@ -68,7 +71,7 @@ fn fins<'a>(
     structure: &Structure,
     part: &PartEntry,
     strip: &RunEntry,
-) -> Option<Role<'a>> {
+) -> Option<Member<'a>> {
     if !strip.is_sound(structure.nodes().len()) || strip.nodes.len() < 2 {
         return None;
     }
@@ -87,7 +90,7 @@ fn fins<'a>(
     };
     let tips = own.map(tip).collect::<Option<Vec<Tip>>>()?;
     let nodes = strip.nodes.iter().copied().map(NodeId::new).collect();
-    Some(Role::Fins { nodes, tips, is_strip: part.kind == "strip" })
+    Some(Member::Fins { nodes, tips, is_strip: part.kind == "strip" })
 }
 
 /// One drawn copy of a connector's plates.
@@ -96,14 +99,14 @@ fn plates<'a>(
     connector: &'a ConnectorEntry,
     found: &Found,
     copy: usize,
-) -> Option<Role<'a>> {
+) -> Option<Member<'a>> {
     let stands = known.stands(connector)?;
     let stands = stands.iter().map(|s| (s.fin, s.to.into()));
     let stands: Vec<(&str, NodeId)> = stands.collect();
     let listed = connector.copies.get(copy.checked_sub(1)?)?;
     let holds =
         (0..stands.len()).filter(|&k| listed.fins.iter().any(|f| f == stands[k].0));
-    let copy = Copy {
+    let copy = PlacedPlate {
         height: listed.height,
         bearing: listed.angle_deg.to_radians(),
         holds: holds.collect(),
@@ -111,10 +114,12 @@ fn plates<'a>(
     let points = || found.outline.vertices.iter().map(|vertex| vertex.point.coords);
     let far = |of: fn(&Vector2) -> f64| points().map(|p| of(&p)).fold(0.0, f64::max);
     let form = match connector.kind {
-        ConnectorKind::Hub => Form::Disc { radius: far(|p| p.norm()) },
-        ConnectorKind::Hinge => Form::Eye { radius: far(|p| p.y), tail: far(|p| p.x) },
+        ConnectorKind::Hub => PlateForm::Disc { radius: far(|p| p.norm()) },
+        ConnectorKind::Hinge => {
+            PlateForm::Eye { radius: far(|p| p.y), tail: far(|p| p.x) }
+        }
     };
     let (node, thickness) = (connector.node.into(), connector.thickness);
     let copies = vec![copy];
-    Some(Role::Plates(Plates { node, form, thickness, stands, copies }))
+    Some(Member::Plates(NodePlates { node, form, thickness, stands, copies }))
 }

@@ -2,10 +2,9 @@
 
 use crate::ids::NodeId;
 use crate::manifest::{
-    ConnectorEntry, ConnectorKind, CopyEntry, HardwareEntry, RunEntry, SlotEntry,
-    degrees, mm,
+    ConnectorEntry, CopyEntry, HardwareEntry, RunEntry, SlotEntry, degrees, mm,
 };
-use crate::parts::{Body, Connector, ConnectorBody, Copy, FinBody, Part};
+use crate::parts::{Body, ConnectorBody, FinBody, Part, PlacedPlate};
 use crate::report::manifest::axis;
 use std::collections::BTreeMap;
 
@@ -22,36 +21,30 @@ pub(super) fn fin(body: &FinBody) -> RunEntry {
 }
 
 pub(super) fn connector(body: &ConnectorBody) -> ConnectorEntry {
-    let connector = &body.connector;
-    let named = || body.fins.iter().zip(&connector.around().spokes);
-    let (kind, width, length, hole) = match connector {
-        Connector::Hub(hub) => (ConnectorKind::Hub, hub.width, hub.slot, hub.hole),
-        Connector::Hinge(hinge) => {
-            let length = hinge.tail() - hinge.floor;
-            (ConnectorKind::Hinge, hinge.width, length, hinge.hole)
-        }
-    };
-    let slots = named().map(|(fin, spoke)| SlotEntry {
-        fin: fin.clone(),
-        to: Some(spoke.to.index()),
-        angle_deg: degrees(spoke.bearing),
-        width: mm(width),
-        length: mm(length),
+    let plates = &body.plates;
+    let named = || body.fins.iter().zip(&body.star.fins);
+    let [width, length] = plates.slot.map(mm);
+    let slots = named().map(|(name, fin)| SlotEntry {
+        fin: name.clone(),
+        to: Some(fin.to.index()),
+        angle_deg: degrees(fin.bearing),
+        width,
+        length,
     });
-    let copy = |copy: &Copy| CopyEntry {
+    let copy = |copy: &PlacedPlate| CopyEntry {
         height: mm(copy.height),
         angle_deg: degrees(copy.bearing),
         fins: copy.holds.iter().map(|&place| body.fins[place].clone()).collect(),
     };
     ConnectorEntry {
-        kind,
+        kind: plates.form.into(),
         node: body.node().index(),
-        fins: named().map(|(fin, s)| (fin.clone(), degrees(s.bearing))).collect(),
+        fins: named().map(|(name, fin)| (name.clone(), degrees(fin.bearing))).collect(),
         slots: slots.collect(),
-        radius: mm(connector.radius()),
-        hole: mm(2.0 * hole),
-        thickness: mm(connector.thickness()),
-        copies: body.copies.iter().map(copy).collect(),
+        radius: mm(plates.form.radius()),
+        hole: mm(2.0 * plates.hole),
+        thickness: mm(plates.thickness),
+        copies: plates.copies.iter().map(copy).collect(),
     }
 }
 
@@ -84,11 +77,12 @@ pub(super) fn hardware(parts: &[Part]) -> Vec<Hardware> {
     };
     let mut rods: BTreeMap<u64, Vec<NodeId>> = BTreeMap::new();
     for body in connectors() {
-        let (Some(low), Some(high)) = (body.copies.first(), body.copies.last()) else {
+        let plates = &body.plates;
+        let (Some(low), Some(high)) = (plates.copies.first(), plates.copies.last())
+        else {
             continue;
         };
-        let length =
-            high.height - low.height + body.connector.thickness() + 2.0 * body.rod;
+        let length = high.height - low.height + plates.thickness + 2.0 * body.rod;
         rods.entry(length.max(0.0).ceil() as u64).or_default().push(body.node());
     }
     let Some(diameter) = connectors().map(|body| body.rod).next() else {

@@ -3,7 +3,7 @@
 use crate::fabrication::Fabrication;
 use crate::geometry::Point3;
 use crate::ids::FinId;
-use crate::parts::{Body, Copy, Part};
+use crate::parts::{Body, Part, PlacedPlate};
 use crate::structure::Structure;
 use std::collections::BTreeMap;
 
@@ -24,16 +24,16 @@ pub(super) fn of_part(part: &Part) -> Vec<FinId> {
 pub(super) fn plates(structure: &Structure, part: &Part) -> Vec<[Point3; 4]> {
     let Body::Connector(body) = &part.body else { return Vec::new() };
     let node = &structure.nodes()[body.node()];
-    let spoke = body.connector.around().spokes.first();
-    let Some(out) = spoke.map(|spoke| structure.direction(body.node(), spoke.to)) else {
+    let first = body.star.fins.first();
+    let Some(out) = first.map(|fin| structure.direction(body.node(), fin.to)) else {
         return Vec::new();
     };
-    let (radius, side) = (body.connector.radius(), node.axis.cross(&out));
-    let plate = |copy: &Copy| {
+    let (radius, side) = (body.plates.form.radius(), node.axis.cross(&out));
+    let plate = |copy: &PlacedPlate| {
         let center = node.position + node.axis * copy.height;
         [out, side, -out, -side].map(|way| center + way * radius)
     };
-    body.copies.iter().map(plate).collect()
+    body.plates.copies.iter().map(plate).collect()
 }
 
 /// The part of each fin of the structure, if it is on one.

@@ -41,7 +41,7 @@ pub fn node_picture(
         _ => None,
     });
     let Some(connector) = connector else { return Ok(None) };
-    let out = SHOWN * connector.1.connector.reach();
+    let out = SHOWN * connector.1.reach;
     let mut slabs = plates(structure, connector);
     for part in &job.parts {
         slabs.extend(ends(structure, part, node, (out, thickness)));
@@ -121,18 +121,18 @@ fn crossings(ring: &[Point2], y: f64) -> Vec<f64> {
 
 fn plates(structure: &Structure, (part, body): (&Part, &ConnectorBody)) -> Vec<Slab> {
     let axis = structure.nodes()[body.node()].axis;
-    let Some(spoke) = body.connector.around().spokes.first() else { return Vec::new() };
-    let first = structure.direction(body.node(), spoke.to);
+    let Some(fin) = body.star.fins.first() else { return Vec::new() };
+    let first = structure.direction(body.node(), fin.to);
     let side = axis.cross(&first);
     let rings: Vec<Vec<Point2>> =
         part.region.contours().map(|c| c.flattened(ARC_SAGITTA_MM)).collect();
-    let copies = body.copies.iter().map(|copy| {
+    let copies = body.plates.copies.iter().map(|copy| {
         let (sin, cos) = (trig::sin(copy.bearing), trig::cos(copy.bearing));
         Slab {
             origin: axis * copy.height,
             along: first * cos + side * sin,
             across: side * cos - first * sin,
-            half: body.connector.thickness() / 2.0,
+            half: body.plates.thickness / 2.0,
             shape: Mask::new(&rings),
             color: PLATE,
         }

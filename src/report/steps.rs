@@ -2,7 +2,7 @@
 
 use crate::fabrication::Fabrication;
 use crate::ids::NodeId;
-use crate::parts::{Body, Connector, ConnectorBody, Opening, Part, insertion};
+use crate::parts::{Body, ConnectorBody, Opening, insertion};
 use crate::template::Template;
 use std::collections::BTreeSet;
 
@@ -111,7 +111,6 @@ fn connected(
     (body, words): (&ConnectorBody, Option<String>),
     new: Vec<usize>,
 ) -> Step {
-    let made = &job.parts[part];
     let fins: Vec<String> = new.iter().map(|&fin| job.parts[fin].id.clone()).collect();
     let stand = body.fins.iter().filter(|id| !fins.contains(id));
     let mut onto: Vec<(NodeId, String)> =
@@ -119,7 +118,7 @@ fn connected(
     // A ring comes there with both its ends.
     let mut told = BTreeSet::new();
     onto.retain(|(_, id)| told.insert(id.clone()));
-    let words = words.unwrap_or_else(|| self::words(made, &fins, &body.connector));
+    let words = words.unwrap_or_else(|| self::words(body, &fins));
     let parts = std::iter::once(part).chain(new).collect();
     Step { parts, onto, words, is_tight: false }
 }
@@ -146,20 +145,9 @@ fn held(id: &str, is_laid: bool) -> String {
     format!("{how}, letters up, over the ends as they are lettered, and bolt the rod.")
 }
 
-fn words(connector: &Part, fins: &[String], kind: &Connector) -> String {
-    let new = match fins {
-        [] => String::new(),
-        fins => format!("New: {}. ", fins.join(", ")),
-    };
-    let id = &connector.id;
-    match kind {
-        Connector::Hub(_) => format!(
-            "{new}One disc {id} lies below, its letters up: set the fins into its windows as they \
-             are lettered, push the other disc on from above, its letters up too, and bolt the rod."
-        ),
-        Connector::Hinge(_) => format!(
-            "{new}Push plates {id} into the end slits of the fins and glue them; lay the fins \
-             about the node in the order of job.json and slide the rod through all eyes."
-        ),
+fn words(body: &ConnectorBody, fins: &[String]) -> String {
+    match fins {
+        [] => body.words.clone(),
+        fins => format!("New: {}. {}", fins.join(", "), body.words),
     }
 }

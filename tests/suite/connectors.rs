@@ -91,7 +91,7 @@ fn is_complete(job: &Fabrication, joint: Joint) {
         let holes = if joint == Joint::Hub { body.fins.len() + 2 } else { 1 };
         assert_eq!(part.region.holes.len(), holes, "{}", part.id);
         let plates = if joint == Joint::Hub { 2 } else { 2 * body.fins.len() };
-        assert_eq!((part.quantity, body.copies.len()), (plates, plates));
+        assert_eq!((part.quantity, body.plates.copies.len()), (plates, plates));
     }
     let placed: usize = job.layout.sheets.iter().map(|s| s.placements.len()).sum();
     assert_eq!(placed, job.parts.iter().map(|part| part.quantity).sum::<usize>());
@@ -106,10 +106,9 @@ fn stands_as_in_space(job: &Fabrication, name: &str) {
             if i == node { j } else { i }
         };
         let first = far(&body.fins[0]);
-        let spokes = &body.connector.around().spokes;
-        for (fin, spoke) in body.fins.iter().zip(spokes) {
+        for (fin, at) in body.fins.iter().zip(&body.star.fins) {
             let needed = angle(structure, node, [first, far(fin)]);
-            let off = (spoke.bearing - needed + PI).rem_euclid(2.0 * PI) - PI;
+            let off = (at.bearing - needed + PI).rem_euclid(2.0 * PI) - PI;
             assert!(off.to_degrees().abs() < 0.01, "{name} {node} {fin} {off}");
         }
         let held: BTreeSet<&String> = body.fins.iter().collect();

@@ -1,7 +1,7 @@
 //! Nothing flexible leaves a cut file behind.
 
 use finwright::design::examples;
-use finwright::fabrication::{Fabrication, criteria, fabricate, verdict};
+use finwright::fabrication::{Fabrication, criteria, fabricate, plan, verdict};
 use finwright::gate::Shut;
 use finwright::joint::Joint;
 use finwright::nest::Effort;
@@ -67,7 +67,8 @@ fn outcome(draft: Draft, joint: Joint) -> Outcome {
     let settings = Settings { joint, ..Settings::new(default_template()) };
     let criteria = criteria(&structure, &settings.template);
     let criteria = criteria.expect("the template's limit can be read");
-    let verdict = verdict(&structure, &settings, &criteria, &mut ());
+    let plan = plan(&structure, &settings);
+    let verdict = verdict(&plan, &settings, &criteria, &mut ());
     verdict.expect("nobody stops it").outcome()
 }
 

@@ -4,7 +4,7 @@ use crate::planting::{Planting, found, job};
 use crate::structures::material;
 use finwright::design::examples;
 use finwright::diagnostic::passes;
-use finwright::fabrication::{Fabrication, fabricate, model};
+use finwright::fabrication::{Fabrication, fabricate, plan};
 use finwright::ids::NodeId;
 use finwright::nest::Effort;
 use finwright::parts::{self, Body, ConnectorBody, Part};
@@ -75,7 +75,7 @@ fn every_end_that_cannot_lap_stands_in_discs_and_every_strip_ends_there() {
             ends.sort();
             assert_eq!(held, ends, "{name} {}", part.id);
             assert_eq!(held.len(), structure.nodes()[node].arms.len(), "{name} {node}");
-            assert_eq!((part.quantity, body.copies.len()), (2, 2));
+            assert_eq!((part.quantity, body.plates.copies.len()), (2, 2));
             for other in &job.parts {
                 let Body::Strip(strip) = &other.body else { continue };
                 let lapped = strip.slits.iter().any(|(slit, _)| slit.node == node);
@@ -120,7 +120,7 @@ fn the_verdict_counts_with_the_discs() {
     let draft = example("three");
     let job = made(draft, &template);
     let structure = job.structure.as_ref().unwrap();
-    let (model, ..) = model(structure, &job.settings);
+    let model = plan(structure, &job.settings).model();
     let hubs =
         model.bodies.iter().filter(|body| matches!(body, RigidBody::Hub(_))).count();
     assert_eq!(hubs, connectors(&job).len());
@@ -169,7 +169,7 @@ fn a_slot_of_another_strip_or_a_closed_window_makes_parts_collide() {
     assert!(!hits(&closed).is_empty(), "a disc without windows");
     let mut low = job.parts.clone();
     let Body::Connector(body) = &mut low[nth].body else { panic!("it was one") };
-    body.copies[1].height -= 1.0;
+    body.plates.copies[1].height -= 1.0;
     assert!(!hits(&low).is_empty(), "a disc below the floor of its notches");
 }
 

@@ -10,7 +10,6 @@ pub(super) mod structure;
 pub(super) mod value;
 pub(super) mod verify;
 
-use crate::joint::Joint;
 use clap::error::ErrorKind;
 use clap::{Args, CommandFactory, Parser, Subcommand};
 use std::num::NonZeroUsize;
@@ -170,12 +169,13 @@ impl Command {
 /// Ends the command if single hubs were asked for where every node has one, or remedies for
 /// a joint that has none.
 pub(super) fn may_have_hubs(args: &structure::InputArgs, apply_remedies: bool) {
-    let message = match args.joint {
-        Joint::Hub if !args.hubs.is_empty() => "--joint hub has a hub on every node",
-        Joint::Hub | Joint::Lap if apply_remedies => {
-            "--apply-remedies goes with --joint hinge"
-        }
-        _ => return,
+    let joint = args.joint;
+    let message = if joint.has_hubs_everywhere() && !args.hubs.is_empty() {
+        format!("--joint {} has a hub on every node", joint.name())
+    } else if apply_remedies && !joint.takes_remedies() {
+        "--apply-remedies goes with --joint hinge".to_owned()
+    } else {
+        return;
     };
     Cli::command().error(ErrorKind::ArgumentConflict, message).exit();
 }

@@ -9,15 +9,12 @@ use clap::builder::PossibleValue;
 
 impl ValueEnum for Joint {
     fn value_variants<'a>() -> &'a [Self] {
-        &[Self::Lap, Self::Hinge, Self::Hub]
+        &Self::ALL
     }
 
     fn to_possible_value(&self) -> Option<PossibleValue> {
-        let about = match self {
-            Self::Lap => "Rigid strips, half-lapped where they cross",
-            Self::Hinge => "Single fins on rods",
-            Self::Hub => "Single fins in slotted discs",
-        };
+        let mut about = self.words().to_owned();
+        about[..1].make_ascii_uppercase();
         Some(PossibleValue::new(self.name()).help(about))
     }
 }

@@ -2,19 +2,21 @@
 //!
 //! Seen along the axis, a disc has from the inside out: a hole for the rod; the middle, up
 //! to `inner`; a closed window for each fin, `slot` long; a ring around all windows. The
-//! tongue of a fin stands in the window; beside it the fin is notched from its edge to take
-//! in the ring (docs/formulas.md §2.4).
+//! tenon of a fin stands in the window; beside it the fin is notched from its edge to take
+//! in the ring.
 
 use crate::geometry::trig;
+use crate::ids::NodeId;
 use crate::parts::fit::Fit;
-use crate::parts::star::{Around, sectors};
+use crate::parts::star::Star;
+use std::collections::BTreeMap;
 use std::f64::consts::PI;
 
 /// The two discs of a node. Lengths in mm, heights along the axis from the base mesh.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Hub {
+pub(crate) struct Hub {
     /// What it holds.
-    pub around: Around,
+    pub star: Star,
     /// From the axis to where windows begin.
     pub inner: f64,
     /// Length of a window along its fin, without the rounding of its ends.
@@ -35,50 +37,37 @@ pub struct Hub {
     pub setback: f64,
 }
 
+/// The hubs of a structure, by node.
+pub(crate) type Hubs = BTreeMap<NodeId, Hub>;
+
 impl Hub {
     /// The hub of a node. Its windows are as long as asked, or as the shortest of its fins
     /// allows, but not shorter than the sheet is thick.
-    pub fn new(around: Around, fit: &Fit) -> Self {
+    pub(crate) fn new(star: Star, fit: &Fit) -> Self {
         let gap = fit.gap();
         let hole = fit.rod_diameter / 2.0 + gap.max(EASY_MM);
         let width = fit.thickness + fit.clearance;
-        let sectors = sectors(&around.spokes).into_iter();
+        let sectors = star.sectors().into_iter();
         let least = sectors.map(|angle| fit.relief + inner_radius(angle, width, fit.web));
-        let clear = around.spokes.iter().map(|spoke| spoke.clear);
+        let clear = star.fins.iter().map(|fin| fin.clear);
         let inner = least.chain(clear).fold(hole + fit.web + fit.relief, f64::max);
-        let room = (around.shortest - fit.web_least) / 2.0 - gap;
+        let room = (star.shortest - fit.web_least) / 2.0 - gap;
         let corner = Corner::new(width, fit);
         let slot = corner.reach(room) - inner;
         let slot = slot.clamp(fit.thickness.min(fit.disc_slot), fit.disc_slot);
         let radius = corner.radius(inner + slot);
         let thickness = fit.connector_thickness;
-        let faces = around.sunk(radius + gap);
-        // A tongue's corners touch the rounded end of the window where it has narrowed by
+        let faces = star.shared_span(radius + gap);
+        // A tenon's corners touch the rounded end of the window where it has narrowed by
         // half the clearance; it may reach so far, less the gap.
         let notch = [inner + slot + fit.bite() - gap, radius + gap];
         let setback = inner + gap;
-        Self {
-            around,
-            inner,
-            slot,
-            width,
-            radius,
-            hole,
-            thickness,
-            faces,
-            notch,
-            setback,
-        }
+        Self { star, inner, slot, width, radius, hole, thickness, faces, notch, setback }
     }
 
     /// Heights between which no disc is: upper face of the lower, lower face of the upper.
-    pub fn between(&self) -> [f64; 2] {
+    pub(crate) fn between(&self) -> [f64; 2] {
         [self.faces[0] + self.thickness, self.faces[1] - self.thickness]
-    }
-
-    /// Angle from each fin to the next, counter-clockwise, radians.
-    pub fn sectors(&self) -> Vec<f64> {
-        sectors(&self.around.spokes)
     }
 }
 

@@ -1,18 +1,18 @@
 //! A disc: hole, windows, ring, and what is engraved on it.
 //!
-//! The origin is the node axis, the first spoke runs along x, and the labelled face looks
+//! The origin is the node axis, the first fin runs along x, and the labelled face looks
 //! up the axis. A small key hole on the clockwise side of a window tells a disc that
 //! is upside down: then it lies on the other side, and a wire does not go through both.
 
 use crate::geometry::{Contour, Point2, Region, Vector2, Vertex, trig};
 use crate::lettering::{letter, width};
+use crate::parts::chain::{circle, quarter, without_doubles};
+use crate::parts::connector::PlateText;
 use crate::parts::fit::Fit;
 use crate::parts::hub::dimensions::Hub;
-use crate::parts::mark::GAP;
-use crate::parts::outline::without_doubles;
-use crate::parts::part::{Mark, MarkKind};
+use crate::parts::mark::{GAP, Mark, MarkKind};
 use crate::tolerance::SAME_FOLD;
-use std::f64::consts::{FRAC_PI_2, FRAC_PI_8};
+use std::f64::consts::FRAC_PI_2;
 
 /// Radius of the key hole, mm: a wire goes through.
 const KEY_RADIUS: f64 = 0.75;
@@ -40,19 +40,11 @@ impl Ray {
 
 /// The shape of a hub's discs.
 pub(crate) fn region(hub: &Hub, fit: &Fit) -> Region {
-    let windows = hub.around.spokes.iter().map(|spoke| window(hub, fit, spoke.bearing));
+    let windows = hub.star.fins.iter().map(|fin| window(hub, fit, fin.bearing));
     let key = key(hub, fit).map(|center| circle(center, KEY_RADIUS).reversed());
     let rod = circle(Point2::origin(), hub.hole).reversed();
     let holes = std::iter::once(rod).chain(windows).chain(key).collect();
     Region { outline: circle(Point2::origin(), hub.radius), holes }
-}
-
-/// Counter-clockwise, from the right.
-pub(crate) fn circle(center: Point2, radius: f64) -> Contour {
-    let quarter = trig::tan(FRAC_PI_8);
-    let ways = [Vector2::x(), Vector2::y(), -Vector2::x(), -Vector2::y()];
-    let vertices = ways.map(|way| Vertex::arc(center + way * radius, quarter));
-    Contour { vertices: vertices.to_vec() }
 }
 
 /// A window, clockwise: full-width walls along the slot, rounded corners beyond.
@@ -60,7 +52,7 @@ fn window(hub: &Hub, fit: &Fit, bearing: f64) -> Contour {
     let ray = Ray::new(bearing);
     let half = hub.width / 2.0;
     let radius = fit.relief.min(half);
-    let bulge = if radius > 0.0 { -trig::tan(FRAC_PI_8) } else { 0.0 };
+    let bulge = if radius > 0.0 { -quarter(radius) } else { 0.0 };
     let (near, far) = (hub.inner, hub.inner + hub.slot);
     let mut vertices = vec![
         Vertex::line(ray.at(near, half)),
@@ -82,18 +74,18 @@ fn window(hub: &Hub, fit: &Fit, bearing: f64) -> Contour {
 /// Where the key hole is: in the widest sector with room, on the clockwise side of the window
 /// that ends it (names stand on the other side of windows), a web from it and from the rim.
 fn key(hub: &Hub, fit: &Fit) -> Option<Point2> {
-    let sectors = hub.sectors();
+    let sectors = hub.star.sectors();
     let mut order: Vec<usize> = (0..sectors.len()).collect();
     // Sectors that rounding alone tells apart stay in their order.
     order.sort_by_key(|&place| -(sectors[place] / SAME_FOLD).round() as i64);
-    let spokes = &hub.around.spokes;
+    let fins = &hub.star.fins;
     let (reach, aside) =
         (hub.radius - fit.web - KEY_RADIUS, hub.width / 2.0 + fit.web + KEY_RADIUS);
     let along = (reach * reach - aside * aside).max(0.0).sqrt();
     order.into_iter().find_map(|place| {
-        let before = Ray::new(spokes[place].bearing);
-        let middle = Ray::new(spokes[place].bearing + sectors[place] / 2.0);
-        let ray = Ray::new(spokes[(place + 1) % spokes.len()].bearing);
+        let before = Ray::new(fins[place].bearing);
+        let middle = Ray::new(fins[place].bearing + sectors[place] / 2.0);
+        let ray = Ray::new(fins[(place + 1) % fins.len()].bearing);
         let center = ray.at(along, -aside);
         let way = center.coords;
         // The other window is on its own side of the axis only.
@@ -107,27 +99,20 @@ fn key(hub: &Hub, fit: &Fit) -> Option<Point2> {
 
 /// Engraved on the upper face: the node, and beside each window the fin that stands there.
 /// The second value counts texts that found no room.
-pub(crate) fn marks(
-    hub: &Hub,
-    fit: &Fit,
-    name: &str,
-    fins: &[String],
-    height: f64,
-) -> (Vec<Mark>, usize) {
+pub(crate) fn marks(hub: &Hub, fit: &Fit, text: &PlateText) -> (Vec<Mark>, usize) {
     let mut free = Free::new(hub, fit);
     let mut marks = Vec::new();
     let mut missing = 0;
-    for spoke in &hub.around.spokes {
-        let ray = Ray::new(spoke.bearing);
-        let places = beside(hub, ray);
-        match free.write(&fins[spoke.fin], height, &places) {
+    for (fin, name) in hub.star.fins.iter().zip(text.fins) {
+        let places = beside(hub, Ray::new(fin.bearing));
+        match free.write(name, text.height, &places) {
             Some(strokes) => marks.push(Mark { kind: MarkKind::Engrave, strokes }),
             None => missing += 1,
         }
     }
     let places = anywhere(hub);
-    let named = [format!("{name} UP"), name.to_owned()];
-    match named.iter().find_map(|text| free.write(text, height, &places)) {
+    let named = [format!("{} UP", text.name), text.name.to_owned()];
+    match named.iter().find_map(|name| free.write(name, text.height, &places)) {
         Some(strokes) => marks.push(Mark { kind: MarkKind::Engrave, strokes }),
         None => missing += 1,
     }
@@ -149,9 +134,10 @@ fn beside(hub: &Hub, ray: Ray) -> Vec<Place> {
 /// Across the sectors, widest first, from the rim inward.
 fn anywhere(hub: &Hub) -> Vec<Place> {
     let mut sectors: Vec<(f64, f64)> = hub
+        .star
         .sectors()
         .into_iter()
-        .zip(hub.around.spokes.iter().map(|s| s.bearing))
+        .zip(hub.star.fins.iter().map(|fin| fin.bearing))
         .collect();
     sectors.sort_by(|a, b| b.0.total_cmp(&a.0));
     let steps = (hub.radius / STEP) as u32;
@@ -227,7 +213,7 @@ impl Free {
         Self {
             radius: hub.radius,
             holes: std::iter::once(rod).chain(key).collect(),
-            panels: hub.around.spokes.iter().map(|spoke| window(spoke.bearing)).collect(),
+            panels: hub.star.fins.iter().map(|fin| window(fin.bearing)).collect(),
         }
     }
 

@@ -1,28 +1,14 @@
-//! What can be wrong with parts.
+//! What can be wrong with strips that lap.
 
 use crate::diagnostic::{Located, Place, short};
 use crate::ids::NodeId;
 use miette::Diagnostic;
 use thiserror::Error;
 
-/// A fact found while making parts.
+/// A fact found while strips are planned and made.
 #[derive(Debug, Clone, PartialEq, Error, Diagnostic)]
 #[allow(missing_docs, reason = "each variant's message says what its fields are")]
-pub enum PartFinding {
-    #[error(
-        "half of the fins are shorter than {} mm, but a slit and the web beside it take {} mm \
-         of a sheet of {} mm; the whole structure is {size}",
-        short(*median_mm), short(2.0 * thickness_mm), short(*thickness_mm)
-    )]
-    #[diagnostic(
-        code(parts::model_too_small),
-        help(
-            "if it was drawn in another unit, say so (an OBJ file is read as mm: try \
-             `--units m --scale 1:50`); else enlarge it (`--scale 10:1`) or use a thinner sheet"
-        )
-    )]
-    ModelTooSmall { median_mm: f64, thickness_mm: f64, size: String },
-
+pub enum LapFinding {
     #[error("{part} would lie over itself when flat; it is split at node {node}")]
     #[diagnostic(
         code(parts::strip_overlaps_itself),
@@ -225,13 +211,6 @@ pub enum PartFinding {
         )
     )]
     NoPlaceForSplice { part: String, length_mm: f64, needed_mm: f64 },
-
-    #[error("the cut line of {part} would cross itself near node {node}")]
-    #[diagnostic(
-        code(parts::outline_crosses_itself),
-        help("slits and edges are too near each other; enlarge the structure")
-    )]
-    OutlineCrossesItself { part: String, node: NodeId },
 }
 
 /// Why discs do not hold an end.
@@ -251,7 +230,7 @@ fn relief(grow: f64, thinner_mm: f64) -> String {
     )
 }
 
-impl Located for PartFinding {
+impl Located for LapFinding {
     fn place(&self) -> Place {
         match self {
             Self::OverlapsItself { part, node }
@@ -260,8 +239,7 @@ impl Located for PartFinding {
             | Self::WebThin { part, node, .. }
             | Self::BendBreaks { part, node, .. }
             | Self::BendTight { part, node, .. }
-            | Self::InsertionTight { part, node, .. }
-            | Self::OutlineCrossesItself { part, node } => {
+            | Self::InsertionTight { part, node, .. } => {
                 Place::part(part.clone()).at(*node)
             }
             Self::StripsTouch { first, second, node }
@@ -270,7 +248,6 @@ impl Located for PartFinding {
                 parts: vec![first.clone(), second.clone()],
                 ..Place::nodes([*node])
             },
-            Self::ModelTooSmall { .. } => Place::default(),
             Self::TooManyStrips { node, .. } => Place::nodes([*node]),
             Self::SlitsTooNear { part, fin, .. } | Self::SlitsNear { part, fin, .. } => {
                 Place { parts: vec![part.clone()], ..Place::fins([*fin]) }

@@ -3,13 +3,15 @@
 //! Node axes are not parallel, slits are. Pushed straight along one direction, a slit as
 //! deep as d on an axis that leans from it by an angle a runs sideways by d tan a; if that
 //! is more than the clearance, the strip is zipped in, and between two neighbouring nodes
-//! whose axes differ by b the plates have to give way by d tan b (docs/formulas.md §2.3).
+//! whose axes differ by b the plates have to give way by d tan b (`docs/strips.md`).
 //! The bend that takes is that of a cantilever as long as the fin: radius = L² / (3 δ).
 
 use crate::geometry::Vector3;
 use crate::ids::NodeId;
-use crate::parts::lap::join::{Opening, Slit};
-use crate::parts::part::StripBody;
+use crate::parts::fit::Fit;
+use crate::parts::lap::finding::LapFinding;
+use crate::parts::part::{Body, Part, StripBody};
+use crate::parts::slit::{Opening, Slit};
 use crate::structure::Structure;
 
 /// How a strip goes in from above, onto the strips that stand already.
@@ -29,10 +31,10 @@ pub struct Insertion {
 /// How a strip goes in; `None` if it is the first to stand at all its nodes.
 pub fn insertion(
     structure: &Structure,
-    body: &StripBody,
+    strip: &StripBody,
     clearance: f64,
 ) -> Option<Insertion> {
-    let slits = body.slits.iter().map(|(slit, _)| slit);
+    let slits = strip.slits.iter().map(|(slit, _)| slit);
     let onto: Vec<&Slit> = slits.filter(|slit| slit.from == Opening::Bottom).collect();
     let axis = |slit: &Slit| structure.nodes()[slit.node].axis;
     let axes: Vec<Vector3> = onto.iter().map(|slit| axis(slit)).collect();
@@ -56,6 +58,28 @@ pub fn insertion(
         is_rigid,
         bend: tightest.filter(|_| !is_rigid),
     })
+}
+
+/// Strips that bend more tightly while they are put in than a model should.
+pub fn tight_insertions(
+    structure: &Structure,
+    parts: &[Part],
+    fit: &Fit,
+) -> Vec<LapFinding> {
+    let tight = parts.iter().filter_map(|part| {
+        let Body::Strip(strip) = &part.body else { return None };
+        let (radius_mm, node) = insertion(structure, strip, fit.clearance)?.bend?;
+        let ratio = radius_mm / fit.thickness;
+        let (part, limit) = (part.id.clone(), fit.bend_model);
+        (ratio < limit).then_some(LapFinding::InsertionTight {
+            part,
+            node,
+            radius_mm,
+            ratio,
+            limit,
+        })
+    });
+    tight.collect()
 }
 
 /// Tangent of the angle between two unit vectors less than a right angle apart.

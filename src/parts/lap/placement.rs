@@ -1,78 +1,71 @@
-//! Where strips end in discs.
+//! Where strips get hubs.
 //!
 //! A node on which ends of strips cannot lap gets a hub, if its discs have room: then all
 //! strips end there, those that ran through are cut. The others are asked again, for a
 //! closed strip that was cut has no seam any more.
 
-use crate::ids::{FinId, NodeId, StripId};
-use crate::parts::clearance::hub_lacks;
+use crate::ids::NodeId;
 use crate::parts::fit::Fit;
-use crate::parts::hub::dimensions::Hub;
-use crate::parts::lap::finding::PartFinding;
-use crate::parts::lap::join::{End, Joinery, join};
+use crate::parts::hub::checks::obstacle;
+use crate::parts::hub::dimensions::{Hub, Hubs};
+use crate::parts::lap::finding::LapFinding;
+use crate::parts::lap::join::join;
 use crate::parts::lap::seam::opened;
-use crate::parts::star::Around;
+use crate::parts::lap::strips::Strips;
+use crate::parts::star::{Star, indices};
 use crate::parts::unfold::{FlatStrip, unfold_without_overlap};
 use crate::structure::{Strip, Structure};
 use std::collections::{BTreeMap, BTreeSet};
 
-/// What holds the strips that end on a node, by node.
-pub type Hubs = BTreeMap<NodeId, Hub>;
-
-/// A structure of strips as they will be cut and joined.
-pub(crate) struct Plan {
+/// Strips cut and joined, with the structure that has them.
+pub(super) struct Joined {
     /// The structure with its strips as they are cut.
     pub structure: Structure,
-    /// The strips in the plane.
-    pub flat: Vec<FlatStrip>,
-    /// Their joints.
-    pub joinery: Joinery,
-    /// What holds ends that do not lap.
-    pub hubs: Hubs,
+    /// Its strips.
+    pub strips: Strips,
     /// Everything found on the way.
-    pub findings: Vec<PartFinding>,
+    pub findings: Vec<LapFinding>,
 }
 
 /// Cuts and joins the strips of a structure; the nodes `asked` get hubs whatever meets there.
-pub(crate) fn plan(structure: &Structure, asked: &[NodeId], fit: &Fit) -> Plan {
-    let fins = structure.fins().iter().enumerate();
-    let index: BTreeMap<FinId, usize> = fins.map(|(k, fin)| (*fin, k)).collect();
-    let hub =
-        |node: NodeId| Some(Hub::new(Around::new(structure, &index, node, fit)?, fit));
+pub(super) fn placed(structure: &Structure, asked: &[NodeId], fit: &Fit) -> Joined {
+    let index = indices(structure);
+    let hub = |node: NodeId| Some(Hub::new(Star::of(structure, &index, node, fit)?, fit));
     let nodes = asked.iter().filter(|node| node.index() < structure.nodes().len());
     let mut hubs: Hubs = nodes.filter_map(|&node| Some((node, hub(node)?))).collect();
     let mut refused: BTreeMap<NodeId, String> = BTreeMap::new();
     let mut split: BTreeSet<NodeId> = BTreeSet::new();
     loop {
-        let mut plan = joined(structure, hubs, fit, &mut split);
-        let loose: BTreeSet<NodeId> = plan.findings.iter().filter_map(loose_at).collect();
+        let mut joined = joined(structure, hubs, fit, &mut split);
+        let loose: BTreeSet<NodeId> =
+            joined.findings.iter().filter_map(loose_at).collect();
         let mut grown = false;
         for node in loose {
             let Some(hub) = hub(node).filter(|_| !refused.contains_key(&node)) else {
                 continue;
             };
-            match plan.lacks(&hub, fit) {
+            match joined.obstacle(&hub, fit) {
                 Some(why) => drop(refused.insert(node, why)),
                 None => {
-                    plan.hubs.insert(node, hub);
+                    joined.strips.hubs.insert(node, hub);
                     grown = true;
                 }
             }
         }
         if !grown {
-            plan.say_why(&refused);
-            return plan;
+            joined.say_why(&refused);
+            return joined;
         }
-        hubs = plan.hubs;
+        hubs = joined.strips.hubs;
     }
 }
 
 /// The node of a finding that says that strips do not hold each other.
-fn loose_at(finding: &PartFinding) -> Option<NodeId> {
+fn loose_at(finding: &LapFinding) -> Option<NodeId> {
     match finding {
-        PartFinding::StripEndUnheld { node, .. }
-        | PartFinding::StripsTouch { node, .. }
-        | PartFinding::TooManyStrips { node, .. } => Some(*node),
+        LapFinding::StripEndUnheld { node, .. }
+        | LapFinding::StripsTouch { node, .. }
+        | LapFinding::TooManyStrips { node, .. } => Some(*node),
         _ => None,
     }
 }
@@ -84,7 +77,7 @@ fn joined(
     hubs: Hubs,
     fit: &Fit,
     split: &mut BTreeSet<NodeId>,
-) -> Plan {
+) -> Joined {
     let strips = structure.strips().iter().flat_map(|strip| cut(strip, &hubs));
     let structure = structure.clone().with_strips(strips.collect());
     let flat = flat_strips(&structure, &hubs, split);
@@ -94,10 +87,11 @@ fn joined(
         let last = |flat: &FlatStrip| flat.axes.last().map(|axis| axis.node);
         let strip = flat.iter().position(|flat| last(flat) == Some(node))?;
         let part = joinery.names[strip].clone();
-        Some(PartFinding::OverlapsItself { part, node })
+        Some(LapFinding::OverlapsItself { part, node })
     });
     let findings = overlaps.chain(found).collect();
-    Plan { structure, flat, joinery, hubs, findings }
+    let strips = Strips { flat, joinery, hubs };
+    Joined { structure, strips, findings }
 }
 
 /// A strip cut at every hub that it runs through; a closed one with one hub stays closed.
@@ -145,86 +139,24 @@ fn chain(flat: &FlatStrip) -> Strip {
     Strip { nodes: nodes.take(count).collect(), closed: flat.closed }
 }
 
-impl Plan {
-    /// What slits take of each fin at its nodes, by node and the one at the other end, mm.
-    pub(crate) fn slits(&self) -> BTreeMap<[NodeId; 2], f64> {
-        let mut taken = BTreeMap::new();
-        for (flat, joints) in self.flat.iter().zip(&self.joinery.joints) {
-            for (&place, slit) in &joints.slits {
-                let node = |place: usize| flat.axes.get(place).map(|axis| axis.node);
-                let sides = [
-                    (place.checked_sub(1).and_then(node), slit.before),
-                    (node(place + 1), slit.after),
-                ];
-                for (to, wall) in sides {
-                    taken.extend(to.map(|to| ([slit.node, to], wall)));
-                }
-            }
-        }
-        taken
-    }
-
+impl Joined {
     /// Why a hub has no room beside what holds the other ends of its fins.
-    fn lacks(&self, hub: &Hub, fit: &Fit) -> Option<String> {
-        let slits = self.slits();
-        let node = hub.around.node;
-        let taken = |to: NodeId| match self.hubs.get(&to) {
+    fn obstacle(&self, hub: &Hub, fit: &Fit) -> Option<String> {
+        let slits = self.strips.slits();
+        let node = hub.star.node;
+        let taken = |to: NodeId| match self.strips.hubs.get(&to) {
             Some(other) => other.notch[1],
             None => slits.get(&[to, node]).copied().unwrap_or_default(),
         };
-        hub_lacks(&self.structure, hub, &taken, fit).map(|finding| finding.to_string())
+        obstacle(&self.structure, hub, &taken, fit).map(|finding| finding.to_string())
     }
 
     /// Tells of ends that nothing holds why discs do not.
     fn say_why(&mut self, refused: &BTreeMap<NodeId, String>) {
         for finding in &mut self.findings {
-            if let PartFinding::StripEndUnheld { node, why, .. } = finding {
+            if let LapFinding::StripEndUnheld { node, why, .. } = finding {
                 *why = refused.get(node).cloned();
             }
         }
-    }
-
-    /// The ends, as strip and node, that nothing holds.
-    fn unheld(&self) -> BTreeSet<(StripId, NodeId)> {
-        let mut unheld = BTreeSet::new();
-        let mut held = BTreeSet::new();
-        for (strip, (flat, joints)) in
-            self.flat.iter().zip(&self.joinery.joints).enumerate()
-        {
-            let last = flat.axes.len() - 1;
-            for (place, axis) in flat.axes.iter().enumerate() {
-                let end = match place {
-                    0 => Some(joints.ends[0]),
-                    k if k == last => Some(joints.ends[1]),
-                    _ => None,
-                };
-                let loose = matches!(end, Some(End::SetBack(_)));
-                let into = if loose { &mut unheld } else { &mut held };
-                into.insert((StripId::new(strip), axis.node));
-            }
-        }
-        // A closed strip comes to its seam twice; one visit that holds is enough.
-        unheld.difference(&held).copied().collect()
-    }
-}
-
-/// Strips as a mechanism sees them.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Lapped {
-    /// The structure with its strips as they will be cut.
-    pub structure: Structure,
-    /// The ends, as strip and node, that lap with nothing and stand in no disc.
-    pub unheld: BTreeSet<(StripId, NodeId)>,
-    /// How far from the axis each hub holds ends against turning, by node, mm.
-    pub levers: BTreeMap<NodeId, f64>,
-}
-
-/// How the strips of a structure hold each other; the nodes `asked` get hubs.
-pub fn lapped(structure: &Structure, asked: &[NodeId], fit: &Fit) -> Lapped {
-    let plan = plan(structure, asked, fit);
-    Lapped {
-        unheld: plan.unheld(),
-        levers: plan.hubs.iter().map(|(&node, hub)| (node, hub.slot)).collect(),
-        structure: plan.structure,
     }
 }

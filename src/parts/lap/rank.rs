@@ -1,6 +1,6 @@
 //! Which strip goes in before which.
 //!
-//! Any ranking gives an order of assembly (docs/formulas.md §2.3); this one uses as few
+//! Any ranking gives an order of assembly; this one uses as few
 //! strips with slits from both edges as two-colouring allows, and depends on the strips'
 //! lengths, not on how the structure is numbered.
 

@@ -1,7 +1,7 @@
 //! Where closed strips are opened.
 
 use crate::ids::NodeId;
-use crate::parts::lap::placement::Hubs;
+use crate::parts::hub::dimensions::Hubs;
 use crate::structure::{Strip, Structure};
 use crate::tolerance::SAME_FOLD;
 

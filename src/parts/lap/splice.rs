@@ -7,11 +7,11 @@
 use crate::geometry::offset::{offset_chain, rounded};
 use crate::geometry::{Point2, Vector2, Vertex, trig};
 use crate::parts::fit::Fit;
-use crate::parts::hub::tenon::held_end;
-use crate::parts::lap::finding::PartFinding;
-use crate::parts::lap::join::{End, Joints};
-use crate::parts::lap::placement::Hubs;
-use crate::parts::outline::{Closure, Piece, outline};
+use crate::parts::hub::dimensions::Hubs;
+use crate::parts::lap::finding::LapFinding;
+use crate::parts::lap::held::held_end;
+use crate::parts::lap::join::Joints;
+use crate::parts::outline::{Closure, End, Piece, outline};
 use crate::parts::unfold::FlatStrip;
 use crate::tolerance::{ARC_SAGITTA_MM, SAME_LENGTH_MM};
 use std::f64::consts::PI;
@@ -36,11 +36,11 @@ pub(crate) struct Whole<'a> {
 /// The strip in as few pieces as `fits` allows (one, if it fits whole).
 ///
 /// # Errors
-/// [`PartFinding::NoPlaceForSplice`] if no fin can take a splice where one is needed.
+/// [`LapFinding::NoPlaceForSplice`] if no fin can take a splice where one is needed.
 pub(crate) fn pieces(
     whole: &Whole,
     fits: &dyn Fn(&[Point2]) -> bool,
-) -> Result<Vec<Piece>, PartFinding> {
+) -> Result<Vec<Piece>, LapFinding> {
     let last = whole.strip.axes.len() - 1;
     let fits = |cuts: [Option<usize>; 2]| {
         let shape = outline(&whole.piece(cuts), whole.fit);
@@ -221,9 +221,9 @@ impl Whole<'_> {
         (1..=count).filter_map(|k| nearest(share(k))).collect()
     }
 
-    fn no_place(&self) -> PartFinding {
+    fn no_place(&self) -> LapFinding {
         let length_mm = self.strip.length();
         let part = self.name.to_owned();
-        PartFinding::NoPlaceForSplice { part, length_mm, needed_mm: self.needed() }
+        LapFinding::NoPlaceForSplice { part, length_mm, needed_mm: self.needed() }
     }
 }

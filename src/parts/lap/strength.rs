@@ -3,8 +3,8 @@
 use crate::geometry::{Point2, Vector2};
 use crate::parts::fit::Fit;
 use crate::parts::lap::bend;
-use crate::parts::lap::finding::PartFinding;
-use crate::parts::lap::join::{Opening, Slit};
+use crate::parts::lap::finding::LapFinding;
+use crate::parts::slit::{Opening, Slit};
 use crate::parts::unfold::{FlatAxis, FlatStrip};
 use std::collections::BTreeMap;
 
@@ -21,7 +21,7 @@ pub(crate) struct Slitted<'a> {
 }
 
 /// Everything weak about a strip.
-pub(crate) fn weaknesses(slitted: &Slitted) -> Vec<PartFinding> {
+pub(crate) fn weaknesses(slitted: &Slitted) -> Vec<LapFinding> {
     let places = slitted.slits.iter();
     let behind = places.filter_map(|(&place, slit)| slitted.behind(place, slit));
     let fins = 0..slitted.strip.axes.len() - 1;
@@ -33,23 +33,23 @@ pub(crate) fn weaknesses(slitted: &Slitted) -> Vec<PartFinding> {
 
 impl Slitted<'_> {
     /// The web between a slit's end and the opposite edge.
-    fn behind(&self, place: usize, slit: &Slit) -> Option<PartFinding> {
+    fn behind(&self, place: usize, slit: &Slit) -> Option<LapFinding> {
         let axis = &self.strip.axes[place];
         let web_mm = axis.below + axis.above - slit.depth - self.fit.relief;
         let (part, node) = (self.name.to_owned(), axis.node);
         if web_mm < self.fit.web_least {
             let least_mm = self.fit.web_least;
-            Some(PartFinding::WebTooThin { part, node, web_mm, least_mm })
+            Some(LapFinding::WebTooThin { part, node, web_mm, least_mm })
         } else if web_mm < self.fit.web {
             let wanted_mm = self.fit.web;
-            Some(PartFinding::WebThin { part, node, web_mm, wanted_mm })
+            Some(LapFinding::WebThin { part, node, web_mm, wanted_mm })
         } else {
             None
         }
     }
 
     /// The web between the slits at both ends of a fin.
-    fn between(&self, fin: usize) -> Option<PartFinding> {
+    fn between(&self, fin: usize) -> Option<LapFinding> {
         let [left, right] = [fin, fin + 1].map(|place| self.slits.get(&place));
         let (left, right) = (left?, right?);
         let axes = &self.strip.axes;
@@ -62,17 +62,17 @@ impl Slitted<'_> {
         let fin = [axes[fin].node, axes[fin + 1].node];
         if web_mm < self.fit.web_least {
             let least_mm = self.fit.web_least;
-            Some(PartFinding::SlitsTooNear { part, fin, web_mm, least_mm })
+            Some(LapFinding::SlitsTooNear { part, fin, web_mm, least_mm })
         } else if web_mm < self.fit.web {
             let wanted_mm = self.fit.web;
-            Some(PartFinding::SlitsNear { part, fin, web_mm, wanted_mm })
+            Some(LapFinding::SlitsNear { part, fin, web_mm, wanted_mm })
         } else {
             None
         }
     }
 
     /// The bend at an inner node: its fold spread over the fins beside it.
-    fn bend(&self, place: usize) -> Option<PartFinding> {
+    fn bend(&self, place: usize) -> Option<LapFinding> {
         let axes = &self.strip.axes;
         let length = |fin: usize| (axes[fin + 1].foot - axes[fin].foot).norm();
         let slit = self.slits.get(&place).map_or(0.0, Slit::width);
@@ -84,7 +84,7 @@ impl Slitted<'_> {
         if ratio < self.fit.bend_crack {
             let limit = self.fit.bend_crack;
             let (grow, thinner_mm) = (limit / ratio, radius_mm / limit);
-            Some(PartFinding::BendBreaks {
+            Some(LapFinding::BendBreaks {
                 part,
                 node,
                 fold_deg,
@@ -97,7 +97,7 @@ impl Slitted<'_> {
         } else if ratio < self.fit.bend_model {
             let limit = self.fit.bend_model;
             let grow = limit / ratio;
-            Some(PartFinding::BendTight {
+            Some(LapFinding::BendTight {
                 part,
                 node,
                 fold_deg,

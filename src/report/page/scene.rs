@@ -95,7 +95,7 @@ fn tightness(job: &Fabrication, template: &Template) -> BTreeMap<(usize, NodeId)
 
 /// The body of the model that each fin belongs to: a strip, or itself.
 fn bodies(structure: &Structure, joint: Joint) -> Vec<Option<usize>> {
-    if joint != Joint::Lap {
+    if !joint.has_strips() {
         return (0..structure.fins().len()).map(Some).collect();
     }
     let mut of = BTreeMap::new();

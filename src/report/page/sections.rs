@@ -50,7 +50,7 @@ pub(super) fn verdict(job: &Fabrication, joint: Joint) -> String {
         text += &format!("<p>For comparison, {}.</p>\n", html::text(&stiff));
     }
     text += &remedies(verdict);
-    text + &format!("<p class=\"small\">Joint: {}.</p>\n", joint_in_words(joint))
+    text + &format!("<p class=\"small\">Joint: {}.</p>\n", joint.words())
 }
 
 const fn meaning(outcome: Outcome) -> &'static str {
@@ -68,14 +68,6 @@ const fn meaning(outcome: Outcome) -> &'static str {
         Outcome::Mechanism => {
             "It moves without any resistance: it does not stand by itself."
         }
-    }
-}
-
-const fn joint_in_words(joint: Joint) -> &'static str {
-    match joint {
-        Joint::Lap => "rigid strips, half-lapped where they cross",
-        Joint::Hinge => "single fins on rods",
-        Joint::Hub => "single fins in slotted discs",
     }
 }
 

@@ -1,4 +1,4 @@
-//! The digital assembly: parts as plates of their thickness, placed in space.
+//! Which parts of an assembly run into each other.
 //!
 //! Made from the flat parts and the structure alone, not from what the parts were made
 //! from. Fins and plates that do not belong together are convex and must be apart in space.
@@ -9,10 +9,12 @@
 
 use crate::geometry::{Point2, Point3, Vector2, Vector3, predicates, trig};
 use crate::ids::NodeId;
-use crate::parts::assembly::built::{Built, Form, Hit, Plates, Role, Snug};
-use crate::parts::assembly::copy::Copy;
+use crate::parts::assembly::assembled::{
+    AssembledPart, Collision, Member, NodePlates, SlotFit,
+};
 use crate::parts::assembly::solid::Plate;
 use crate::parts::part::Tip;
+use crate::parts::plate::{PlacedPlate, PlateForm};
 use crate::parts::star::shortest;
 use crate::structure::Structure;
 use crate::tolerance::{NO_LENGTH_MM, PLATES_TOUCH_MM};
@@ -22,7 +24,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 /// A plate of the assembly.
 struct Solid<'a> {
-    part: &'a Built<'a>,
+    part: &'a AssembledPart<'a>,
     plate: Plate,
     what: What<'a>,
 }
@@ -33,24 +35,30 @@ enum What<'a> {
     /// A fin, by its nodes, and whether it may lap.
     Fin { nodes: [NodeId; 2], is_strip: bool },
     /// A copy of a connector.
-    Copy(&'a Plates<'a>, &'a Copy),
+    Copy(&'a NodePlates<'a>, &'a PlacedPlate),
 }
 
 /// All pairs of parts that would run into each other.
-pub fn together(structure: &Structure, parts: &[Built], snug: &Snug) -> Vec<Hit> {
-    let joined = parts.iter().filter_map(|part| match &part.role {
-        Role::Plates(plates) => Some(plates.node),
-        Role::Fins { .. } => None,
+pub fn collide(
+    structure: &Structure,
+    parts: &[AssembledPart],
+    slot_fit: &SlotFit,
+) -> Vec<Collision> {
+    let joined = parts.iter().filter_map(|part| match &part.member {
+        Member::Plates(plates) => Some(plates.node),
+        Member::Fins { .. } => None,
     });
     let joined: BTreeSet<NodeId> = joined.collect();
-    let solids: Vec<Solid> =
-        parts.iter().flat_map(|part| solids(structure, part, snug.thickness)).collect();
+    let solids: Vec<Solid> = parts
+        .iter()
+        .flat_map(|part| solids(structure, part, slot_fit.thickness))
+        .collect();
     let boxes = solids.iter().enumerate().map(|(k, solid)| {
         GeomWithData::new(Rectangle::from_aabb(around(&solid.plate)), k)
     });
     let tree: RTree<GeomWithData<Rectangle<[f64; 3]>, usize>> =
         RTree::bulk_load(boxes.collect());
-    let mut hits = Vec::new();
+    let mut collisions = Vec::new();
     for (k, solid) in solids.iter().enumerate() {
         let near = tree.locate_in_envelope_intersecting(around(&solid.plate));
         let mut near: Vec<usize> =
@@ -58,13 +66,13 @@ pub fn together(structure: &Structure, parts: &[Built], snug: &Snug) -> Vec<Hit>
         near.sort_unstable();
         let others = near.into_iter().map(|n| &solids[n]);
         let strangers = others.filter(|other| !may_touch(solid, other, &joined));
-        hits.extend(strangers.filter_map(|other| collision(solid, other)));
+        collisions.extend(strangers.filter_map(|other| collision(solid, other)));
     }
-    hits.extend(in_cuts(structure, parts, snug));
+    collisions.extend(in_cuts(structure, parts, slot_fit));
     // The plates of two nodes meet more than once; once is enough to say.
     let mut told = BTreeSet::new();
-    hits.retain(|hit| told.insert(hit.parts.clone()));
-    hits
+    collisions.retain(|found| told.insert(found.parts.clone()));
+    collisions
 }
 
 fn around(plate: &Plate) -> AABB<[f64; 3]> {
@@ -97,9 +105,9 @@ fn may_touch(a: &Solid, b: &Solid, joined: &BTreeSet<NodeId>) -> bool {
     (is_strip || other) && shared.is_none_or(|node| !joined.contains(&node))
 }
 
-fn collision(a: &Solid, b: &Solid) -> Option<Hit> {
+fn collision(a: &Solid, b: &Solid) -> Option<Collision> {
     let depth_mm = a.plate.overlap(&b.plate);
-    (depth_mm > PLATES_TOUCH_MM).then(|| Hit {
+    (depth_mm > PLATES_TOUCH_MM).then(|| Collision {
         parts: [a, b].map(|solid| solid.part.name.to_owned()),
         nodes: shared(a.part, b.part),
         depth_mm,
@@ -107,7 +115,7 @@ fn collision(a: &Solid, b: &Solid) -> Option<Hit> {
 }
 
 /// Nodes that both parts reach; all of theirs if there is none.
-fn shared(a: &Built, b: &Built) -> Vec<NodeId> {
+fn shared(a: &AssembledPart, b: &AssembledPart) -> Vec<NodeId> {
     let (mut a, b) = (a.nodes(), b.nodes());
     if a.iter().any(|node| b.contains(node)) {
         a.retain(|node| b.contains(node));
@@ -119,13 +127,13 @@ fn shared(a: &Built, b: &Built) -> Vec<NodeId> {
 
 fn solids<'a>(
     structure: &Structure,
-    part: &'a Built<'a>,
+    part: &'a AssembledPart<'a>,
     thickness: f64,
 ) -> Vec<Solid<'a>> {
-    let (nodes, tips, is_strip) = match &part.role {
-        Role::Fins { nodes, tips, is_strip } => (nodes, tips, *is_strip),
-        Role::Plates(plates) => {
-            let solid = |copy: &'a Copy| {
+    let (nodes, tips, is_strip) = match &part.member {
+        Member::Fins { nodes, tips, is_strip } => (nodes, tips, *is_strip),
+        Member::Plates(plates) => {
+            let solid = |copy: &'a PlacedPlate| {
                 let plate = connector_plate(structure, plates, copy);
                 Solid { part, plate, what: What::Copy(plates, copy) }
             };
@@ -146,12 +154,16 @@ fn solids<'a>(
 }
 
 /// A plate without its cuts.
-fn connector_plate(structure: &Structure, plates: &Plates, copy: &Copy) -> Plate {
+fn connector_plate(
+    structure: &Structure,
+    plates: &NodePlates,
+    copy: &PlacedPlate,
+) -> Plate {
     let node = &structure.nodes()[plates.node];
     let center = node.position + node.axis * copy.height;
     let frame = Frame::new(structure, plates).map(|frame| frame.turned(copy.bearing));
     match (plates.form, frame) {
-        (Form::Eye { radius, tail }, Some(frame)) => {
+        (PlateForm::Eye { radius, tail }, Some(frame)) => {
             let side = frame.axis.cross(&frame.first);
             let eye = Plate::arc(center, [-frame.first, side], radius);
             let tail = [1.0, -1.0]
@@ -159,7 +171,7 @@ fn connector_plate(structure: &Structure, plates: &Plates, copy: &Copy) -> Plate
             let outline: Vec<Point3> = eye.into_iter().chain(tail).collect();
             Plate::new(&outline, frame.axis, plates.thickness)
         }
-        (Form::Eye { radius, .. } | Form::Disc { radius }, _) => {
+        (PlateForm::Eye { radius, .. } | PlateForm::Disc { radius }, _) => {
             Plate::round(center, node.axis, radius, plates.thickness)
         }
     }
@@ -196,7 +208,7 @@ struct Frame {
 }
 
 impl Frame {
-    fn new(structure: &Structure, plates: &Plates) -> Option<Self> {
+    fn new(structure: &Structure, plates: &NodePlates) -> Option<Self> {
         let first = structure.direction(plates.node, plates.stands.first()?.1);
         Some(Self { axis: structure.nodes()[plates.node].axis, first })
     }
@@ -209,35 +221,39 @@ impl Frame {
 }
 
 /// Fins that do not pass through the cuts of the plates that hold them.
-fn in_cuts(structure: &Structure, parts: &[Built], snug: &Snug) -> Vec<Hit> {
-    let known: BTreeMap<&str, &Built> =
+fn in_cuts(
+    structure: &Structure,
+    parts: &[AssembledPart],
+    slot_fit: &SlotFit,
+) -> Vec<Collision> {
+    let known: BTreeMap<&str, &AssembledPart> =
         parts.iter().map(|part| (part.name, part)).collect();
-    let mut hits = Vec::new();
+    let mut collisions = Vec::new();
     for part in parts {
-        let Role::Plates(plates) = &part.role else { continue };
+        let Member::Plates(plates) = &part.member else { continue };
         for copy in &plates.copies {
-            let cut = Cut { structure, part, plates, copy, snug };
+            let cut = Cut { structure, part, plates, copy, slot_fit };
             let stuck = copy.holds.iter().filter_map(|&place| {
                 let fin = known.get(plates.stands[place].0)?;
                 cut.stuck(fin, place).then(|| fin.name.to_owned())
             });
-            hits.extend(stuck.map(|first| Hit {
+            collisions.extend(stuck.map(|first| Collision {
                 parts: [first, part.name.to_owned()],
                 nodes: vec![plates.node],
-                depth_mm: snug.thickness,
+                depth_mm: slot_fit.thickness,
             }));
         }
     }
-    hits
+    collisions
 }
 
 /// One plate and what it is cut from.
 struct Cut<'a> {
     structure: &'a Structure,
-    part: &'a Built<'a>,
-    plates: &'a Plates<'a>,
-    copy: &'a Copy,
-    snug: &'a Snug,
+    part: &'a AssembledPart<'a>,
+    plates: &'a NodePlates<'a>,
+    copy: &'a PlacedPlate,
+    slot_fit: &'a SlotFit,
 }
 
 /// Just inside a plate's face, as a share of its thickness: edges may lie in the face itself.
@@ -246,12 +262,12 @@ const SKIN: f64 = 0.01;
 impl Cut<'_> {
     /// Whether what stands at a place meets the material of the plate, or comes nearer than
     /// the clearance.
-    fn stuck(&self, part: &Built, place: usize) -> bool {
+    fn stuck(&self, part: &AssembledPart, place: usize) -> bool {
         let (node, to) = (self.plates.node, self.plates.stands[place].1);
-        let Role::Fins { tips, .. } = &part.role else { return true };
+        let Member::Fins { tips, .. } = &part.member else { return true };
         let tip = tips.iter().find(|tip| (tip.axis.node, tip.to) == (node, to));
         let (Some(tip), Some(out)) = (tip, self.bearing(to)) else { return true };
-        let Snug { thickness, clearance, relief } = *self.snug;
+        let SlotFit { thickness, clearance, relief } = *self.slot_fit;
         let thickness = thickness - PLATES_TOUCH_MM;
         // A strip folds at its next axis; what lies behind is not in this plane.
         let length = shortest(self.structure, [node, to]);
