@@ -23,7 +23,7 @@
 //! let source = template::embedded("pmma-cast-3").unwrap();
 //! let template = template::read(source, "pmma-cast-3").unwrap();
 //! let specification = job::Specification {
-//!     input: job::Input::embedded(examples::named("three").unwrap(), &job::Reading::default()),
+//!     input: job::Input::embedded(examples::named("three").unwrap(), &job::InputOptions::default()),
 //!     settings: Settings::new(template),
 //!     planarise: true,
 //!     apply_remedies: false,

@@ -13,7 +13,7 @@ use crate::design::{
 };
 use crate::diagnostic::Finding;
 use crate::geometry::Point3;
-use crate::job::{AXES_FROM_NORMALS, Reading};
+use crate::job::{AXES_FROM_NORMALS, InputOptions};
 use crate::structure::{AxisRule, Structure, write_json};
 use crate::tolerance::Tolerance;
 use crate::units::Unit;
@@ -103,7 +103,8 @@ fn read(args: &DesignArgs) -> Result<Read, Failure> {
         polygons.axes = polygons.axes.filter(|_| args.axes != AxisRule::Normal);
         return Ok(Read { name: named.to_owned(), polygons, findings: Vec::new() });
     }
-    let reading = Reading { units: args.units, axes: args.axes, ..Reading::default() };
+    let reading =
+        InputOptions { units: args.units, axes: args.axes, ..InputOptions::default() };
     let input = input::read(named, &reading)?;
     let mut findings = input.findings;
     let count = findings.len();

@@ -5,7 +5,7 @@ use crate::cli::flags::structure::InputArgs;
 use crate::cli::flags::value::EffortLevel;
 use crate::design::examples;
 use crate::diagnostic::{Finding, Located, Place};
-use crate::job::{Input, Reading, Specification};
+use crate::job::{Input, InputOptions, Specification};
 use crate::nest::Effort;
 use crate::settings::Settings;
 use crate::structure::ReadError;
@@ -108,7 +108,7 @@ pub(super) fn settings(args: &InputArgs) -> Result<Settings, InputError> {
 /// [`InputError`] if there is none.
 pub(super) fn structure(args: &InputArgs) -> Result<Input, InputError> {
     let named = args.structure.as_deref().unwrap_or(examples::ALL[0].name);
-    let reading = Reading {
+    let reading = InputOptions {
         units: args.units,
         axes: args.axes,
         scale: args.scale.clone(),
@@ -122,7 +122,7 @@ pub(super) fn structure(args: &InputArgs) -> Result<Input, InputError> {
 ///
 /// # Errors
 /// [`InputError`] if there is none.
-pub(super) fn read(named: &str, reading: &Reading) -> Result<Input, InputError> {
+pub(super) fn read(named: &str, reading: &InputOptions) -> Result<Input, InputError> {
     let path = Path::new(named);
     match examples::named(named) {
         Some(example) if !path.is_file() => Ok(Input::embedded(example, reading)),
@@ -141,7 +141,7 @@ pub(super) fn unknown_structure(found: &str) -> InputError {
     InputError::UnknownStructure { found: found.to_owned(), nearest }
 }
 
-fn from_file(path: &Path, reading: &Reading) -> Result<Input, InputError> {
+fn from_file(path: &Path, reading: &InputOptions) -> Result<Input, InputError> {
     let file = path.file_name().unwrap_or_default().to_string_lossy();
     let ending = path.extension().unwrap_or_default().to_string_lossy().to_lowercase();
     let bytes = bytes(path, |path| match ending.as_str() {

@@ -10,8 +10,8 @@ use crate::design::planarise::{
     smoothed_axes,
 };
 use crate::diagnostic::Finding;
-use crate::job::{AXES_FROM_NORMALS, Fix, Input, Reading};
-use crate::structure::{Structure, exchange, write_json, write_obj};
+use crate::job::{AXES_FROM_NORMALS, Fix, Input, InputOptions};
+use crate::structure::{Structure, interop, write_json, write_obj};
 use crate::tolerance::Tolerance;
 use crate::units::Unit;
 use std::path::Path;
@@ -57,11 +57,11 @@ pub(super) fn run(args: &PlanariseArgs, console: Console) -> Result<End, Failure
 }
 
 fn read(args: &PlanariseArgs) -> Result<Input, Failure> {
-    let reading = Reading {
+    let reading = InputOptions {
         units: args.units,
         axes: args.axes,
         fix: args.fix.clone(),
-        ..Reading::default()
+        ..InputOptions::default()
     };
     let mut input = input::read(&args.mesh, &reading)?;
     let bad =
@@ -70,13 +70,13 @@ fn read(args: &PlanariseArgs) -> Result<Input, Failure> {
     if let Some(path) = &args.upper {
         let upper = input::read(&path.to_string_lossy(), &reading)?.draft;
         *draft =
-            exchange::between(std::mem::take(draft), &upper).map_err(|e| bad(path, e))?;
+            interop::between(std::mem::take(draft), &upper).map_err(|e| bad(path, e))?;
     } else if let Some(path) = &args.axis_mesh {
         let other = input::read(&path.to_string_lossy(), &reading)?.draft;
-        draft.axes = exchange::axes_toward(draft, &other).map_err(|e| bad(path, e))?;
+        draft.axes = interop::axes_toward(draft, &other).map_err(|e| bad(path, e))?;
     } else if let Some(path) = &args.axis_lines {
         let text = input::text_of(path)?;
-        let axes = exchange::axes_from_lines(
+        let axes = interop::axes_from_lines(
             draft,
             &text,
             args.units.unwrap_or(Unit::Millimetre),
@@ -119,24 +119,24 @@ fn write(
     if let Some(dir) = &args.export {
         let disk = |source| JobDirError::Disk { path: dir.clone(), source };
         std::fs::create_dir_all(dir).map_err(disk)?;
-        for (ending, text) in exchange_files(structure) {
+        for (ending, text) in interop_files(structure) {
             to_disk(&dir.join(format!("{}{ending}", structure.name())), text.as_bytes())?;
         }
     }
     Ok(())
 }
 
-fn exchange_files(structure: &Structure) -> Vec<(&'static str, String)> {
-    let [lower, upper] = exchange::write_pair(structure);
-    let [mesh, lines] = exchange::write_lines(structure);
+fn interop_files(structure: &Structure) -> Vec<(&'static str, String)> {
+    let [lower, upper] = interop::write_pair(structure);
+    let [mesh, lines] = interop::write_lines(structure);
     vec![
         ("-lower.obj", lower),
         ("-upper.obj", upper),
         ("-vn.obj", write_obj(structure)),
         ("-mesh.obj", mesh),
         ("-axes.obj", lines),
-        ("-compas.json", exchange::write_compas(structure)),
-        ("-fins.obj", exchange::write_fins(structure)),
+        ("-compas.json", interop::write_compas(structure)),
+        ("-fins.obj", interop::write_fins(structure)),
     ]
 }
 

@@ -4,7 +4,7 @@ use crate::design::examples::Example;
 use crate::diagnostic::{Finding, Located, Place};
 use crate::geometry::Mesh;
 use crate::structure::{
-    AxisRule, Draft, ObjOptions, ReadError, exchange, read_json, read_obj,
+    AxisRule, Draft, ObjOptions, ReadError, interop, read_json, read_obj,
 };
 use crate::tolerance::SAME_HEIGHT;
 use crate::units::Unit;
@@ -38,7 +38,7 @@ pub struct Origin {
 
 /// How a structure is read.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Reading {
+pub struct InputOptions {
     /// Unit of a file that names none.
     pub units: Option<Unit>,
     /// Where node axes come from.
@@ -51,7 +51,7 @@ pub struct Reading {
     pub fix: Option<Fix>,
 }
 
-impl Default for Reading {
+impl Default for InputOptions {
     /// As the file says, at full size.
     fn default() -> Self {
         let scale = Scale { text: "1:1".to_owned(), factor: 1.0 };
@@ -134,7 +134,7 @@ impl Located for InputNote {
 
 impl Input {
     /// An embedded structure.
-    pub fn embedded(example: &Example, reading: &Reading) -> Self {
+    pub fn embedded(example: &Example, reading: &InputOptions) -> Self {
         let mut draft = (example.draft)();
         if let Some(axes) = reading.axes.axes(&draft.positions, &draft.faces) {
             draft.axes = axes;
@@ -149,10 +149,14 @@ impl Input {
     ///
     /// # Errors
     /// [`ReadError`] if it is neither.
-    pub fn json(file: &str, text: &str, reading: &Reading) -> Result<Self, ReadError> {
-        let (draft, notes, mut findings) = if exchange::is_compas(text) {
+    pub fn json(
+        file: &str,
+        text: &str,
+        reading: &InputOptions,
+    ) -> Result<Self, ReadError> {
+        let (draft, notes, mut findings) = if interop::is_compas(text) {
             let unit = reading.units.unwrap_or(Unit::Millimetre);
-            let (draft, notes) = exchange::read_compas(text, unit, reading.axes)?;
+            let (draft, notes) = interop::read_compas(text, unit, reading.axes)?;
             (draft, notes, Vec::new())
         } else {
             let (draft, notes) = read_json(text, reading.axes)?;
@@ -167,7 +171,11 @@ impl Input {
     ///
     /// # Errors
     /// [`ReadError`] if it is none.
-    pub fn obj(file: &str, bytes: &[u8], reading: &Reading) -> Result<Self, ReadError> {
+    pub fn obj(
+        file: &str,
+        bytes: &[u8],
+        reading: &InputOptions,
+    ) -> Result<Self, ReadError> {
         // Names and comments may be in any alphabet; what counts in an OBJ file is ASCII.
         let text = String::from_utf8_lossy(bytes);
         let unit = reading.units.unwrap_or(Unit::Millimetre);
@@ -182,7 +190,7 @@ impl Input {
         draft: Draft,
         (name, bytes, lists_fins): (&str, &[u8], bool),
         findings: Vec<Finding>,
-        reading: &Reading,
+        reading: &InputOptions,
     ) -> Self {
         let mut draft = draft.scaled(reading.scale.factor);
         if let Some(depth) = reading.depth {
@@ -213,7 +221,7 @@ fn named(mut draft: Draft, file: &str) -> Draft {
     draft
 }
 
-fn units_ignored(file: &str, reading: &Reading) -> Vec<Finding> {
+fn units_ignored(file: &str, reading: &InputOptions) -> Vec<Finding> {
     let note = reading.units.map(|_| InputNote::UnitsIgnored { file: file.to_owned() });
     note.into_iter().map(Finding::from).collect()
 }

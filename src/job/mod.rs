@@ -12,7 +12,7 @@ mod replacement;
 
 pub use advice::{Advice, Question, Tried, smallest_scale};
 pub use error::{JobError, NoSuchPart};
-pub use input::{Depth, Fix, Input, Origin, Reading, Scale};
+pub use input::{Depth, Fix, Input, InputOptions, Origin, Scale};
 
 use crate::design::planarise::{Options, planarised_if_needed};
 use crate::diagnostic::{Finding, passes};
@@ -22,7 +22,7 @@ use crate::gate::approve_loose;
 use crate::json::{self, UnwritableJson};
 use crate::manifest::Manifest;
 use crate::proof::{Proof, ProofFinding, Spot, prove};
-use crate::report::{self, Page, Source};
+use crate::report::{self, Page, Provenance};
 use crate::settings::Settings;
 use crate::structure::write_json;
 use crate::vendor;
@@ -239,9 +239,9 @@ fn source<'a>(
     fabrication: &'a Fabrication,
     origin: &'a Origin,
     template_sha256: &'a str,
-) -> Source<'a> {
+) -> Provenance<'a> {
     let settings = &fabrication.settings;
-    Source {
+    Provenance {
         input: &origin.name,
         input_sha256: &origin.sha256,
         template: &settings.template,

@@ -21,7 +21,7 @@ use thiserror::Error;
 /// Something wrong with a layout.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[allow(missing_docs, reason = "the messages say what the fields are")]
-pub enum Fault {
+pub enum LayoutFault {
     #[error("sheet {}: {first} and {second} overlap", sheet + 1)]
     Overlap { sheet: usize, first: String, second: String },
     #[error("sheet {}: {first} and {second} are {distance:.6} mm apart", sheet + 1)]
@@ -51,7 +51,7 @@ impl HasPosition for Corner {
 }
 
 /// Everything wrong with a layout.
-pub fn check(layout: &Layout, shapes: &[Shape], stock: &[Stock]) -> Vec<Fault> {
+pub fn check(layout: &Layout, shapes: &[Shape], stock: &[Stock]) -> Vec<LayoutFault> {
     let sheets = layout.sheets.iter().enumerate();
     sheets
         .flat_map(|(sheet, nested)| {
@@ -115,17 +115,17 @@ impl Checked<'_> {
         owner == self.nested.placements.len()
     }
 
-    fn overlap(&self, first: usize, second: usize) -> Fault {
+    fn overlap(&self, first: usize, second: usize) -> LayoutFault {
         let part = [second, first].into_iter().find(|&owner| !self.is_remnant(owner));
         if self.is_remnant(first) || self.is_remnant(second) {
             let name = part.map(|part| self.name(part)).unwrap_or_default();
-            return Fault::OverEdge { sheet: self.sheet, name };
+            return LayoutFault::OverEdge { sheet: self.sheet, name };
         }
         let (first, second) = (self.name(first), self.name(second));
-        Fault::Overlap { sheet: self.sheet, first, second }
+        LayoutFault::Overlap { sheet: self.sheet, first, second }
     }
 
-    fn faults(&self) -> Vec<Fault> {
+    fn faults(&self) -> Vec<LayoutFault> {
         let mut faults = self.in_margin();
         faults.extend(self.nested_in_another());
         match self.triangulated() {
@@ -140,7 +140,7 @@ impl Checked<'_> {
         faults
     }
 
-    fn in_margin(&self) -> Vec<Fault> {
+    fn in_margin(&self) -> Vec<LayoutFault> {
         let (margin, stock) = (self.stock.margin, self.stock);
         let out = |p: &Point2| {
             let low = (margin - p.x).max(margin - p.y);
@@ -156,13 +156,17 @@ impl Checked<'_> {
         outlines
             .map(|ring| (ring.owner, worst(&ring.points)))
             .filter(|(_, by)| by.is_nan() || *by > PLACED_MM)
-            .map(|(k, by)| Fault::InMargin { sheet: self.sheet, name: self.name(k), by })
+            .map(|(k, by)| LayoutFault::InMargin {
+                sheet: self.sheet,
+                name: self.name(k),
+                by,
+            })
             .collect()
     }
 
     /// Parts inside the material of another part, found by one corner of each; parts
     /// beside the remnant, and holes of the remnant inside a part.
-    fn nested_in_another(&self) -> Vec<Fault> {
+    fn nested_in_another(&self) -> Vec<LayoutFault> {
         let count = self.nested.placements.len();
         let mut insides: Vec<Vec<usize>> = vec![Vec::new(); count + 1];
         let bounds: Vec<Rect> =
@@ -197,7 +201,8 @@ impl Checked<'_> {
     /// All outlines as constraints, and what conflicts.
     fn triangulated(
         &self,
-    ) -> Result<(ConstrainedDelaunayTriangulation<Corner>, Vec<Fault>), Fault> {
+    ) -> Result<(ConstrainedDelaunayTriangulation<Corner>, Vec<LayoutFault>), LayoutFault>
+    {
         let mut corners: Vec<Corner> = Vec::new();
         let mut edges = Vec::new();
         let mut known: BTreeMap<[u64; 2], usize> = BTreeMap::new();
@@ -228,7 +233,7 @@ impl Checked<'_> {
             ConstrainedDelaunayTriangulation::try_bulk_load_cdt(corners, edges, |edge| {
                 conflicts.push(edge);
             });
-        let triangulation = loaded.map_err(|error| Fault::Unreadable {
+        let triangulation = loaded.map_err(|error| LayoutFault::Unreadable {
             sheet: self.sheet,
             reason: error.to_string(),
         })?;
@@ -240,27 +245,31 @@ impl Checked<'_> {
     }
 
     /// Whose lines a line of a part crosses: of other parts, or its own.
-    fn crossed(&self, owner: usize, a: Point2, b: Point2) -> Vec<Fault> {
+    fn crossed(&self, owner: usize, a: Point2, b: Point2) -> Vec<LayoutFault> {
         let crosses = |ring: &&Ring| {
             let next = ring.points.iter().cycle().skip(1);
             let mut edges = ring.points.iter().zip(next);
             ring.owner != owner && edges.any(|(c, d)| segments_meet(a, b, *c, *d))
         };
         let others = self.rings.iter().filter(crosses);
-        let faults: Vec<Fault> = others.map(|r| self.overlap(owner, r.owner)).collect();
+        let faults: Vec<LayoutFault> =
+            others.map(|r| self.overlap(owner, r.owner)).collect();
         if !faults.is_empty() {
             return faults;
         }
         if self.is_remnant(owner) {
             let name = "the remnant".to_owned();
-            return vec![Fault::CrossesItself { sheet: self.sheet, name }];
+            return vec![LayoutFault::CrossesItself { sheet: self.sheet, name }];
         }
-        vec![Fault::CrossesItself { sheet: self.sheet, name: self.name(owner) }]
+        vec![LayoutFault::CrossesItself { sheet: self.sheet, name: self.name(owner) }]
     }
 
     /// Corners nearer to an edge of another part than the spacing, or of the remnant than
     /// the margin.
-    fn too_near(&self, cdt: &ConstrainedDelaunayTriangulation<Corner>) -> Vec<Fault> {
+    fn too_near(
+        &self,
+        cdt: &ConstrainedDelaunayTriangulation<Corner>,
+    ) -> Vec<LayoutFault> {
         let gap = |of_remnant: bool| match of_remnant {
             true => self.stock.margin - PLACED_MM,
             false => self.stock.spacing - PLACED_MM,
@@ -286,13 +295,17 @@ impl Checked<'_> {
         faults
     }
 
-    fn near(&self, [first, second]: [usize; 2], distance: f64) -> Fault {
+    fn near(&self, [first, second]: [usize; 2], distance: f64) -> LayoutFault {
         let sheet = self.sheet;
         if self.is_remnant(first) || self.is_remnant(second) {
             let name = self.name(first.min(second));
-            return Fault::InMargin { sheet, name, by: self.stock.margin - distance };
+            return LayoutFault::InMargin {
+                sheet,
+                name,
+                by: self.stock.margin - distance,
+            };
         }
         let (first, second) = (self.name(first), self.name(second));
-        Fault::TooNear { sheet, first, second, distance }
+        LayoutFault::TooNear { sheet, first, second, distance }
     }
 }

@@ -29,7 +29,7 @@ mod state;
 mod stock;
 mod triangulation;
 
-pub use check::{Fault, check};
+pub use check::{LayoutFault, check};
 pub use error::NestError;
 pub use leftover::leftovers;
 pub use outline::{outline_fault, stock_fault, without_loops};
@@ -127,7 +127,7 @@ pub struct Solution {
 
 /// Parts in a strip of fixed height.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Strip {
+pub struct PackedStrip {
     /// Where the parts lie, on one sheet as long as the strip.
     pub layout: Layout,
     /// Length of the strip, margin included, mm.
@@ -216,7 +216,7 @@ pub fn strip(
     sheet: &Stock,
     effort: &Effort,
     watch: &mut dyn Watch,
-) -> Result<Strip, NestError> {
+) -> Result<PackedStrip, NestError> {
     let endless = Stock { width: 1e9, ..sheet.clone() };
     for shape in shapes {
         if fits(&shape.outline, &shape.rotations, &endless).is_none() {
@@ -232,7 +232,7 @@ pub fn strip(
     let length = ((length + ROOM_MM) / WRITTEN_MM).ceil() * WRITTEN_MM;
     let layout = Layout { sheets: vec![NestedSheet { stock: 0, placements }] };
     match check(&layout, shapes, &[Stock { width: length, ..sheet.clone() }]).first() {
-        None => Ok(Strip { layout, length, trials }),
+        None => Ok(PackedStrip { layout, length, trials }),
         Some(fault) => Err(unsound(fault.to_string())),
     }
 }

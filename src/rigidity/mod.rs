@@ -40,7 +40,7 @@ pub use entry::{
 pub use finding::RigidityFinding;
 pub use linkage::read_linkage;
 pub use model::{Coupling, Model, RigidBody};
-pub use paper::{Discrepancy, MOST_PAIRED, Motion, Paper};
+pub use paper::{Discrepancy, HingeMotion, MOST_PAIRED, Paper};
 pub use picture::{Look, picture};
 pub use remedy::{Cure, FEW_STEPS, MOST_STEPS, Remedy, remedies};
 pub use sway::Sway;

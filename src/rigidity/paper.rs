@@ -30,7 +30,7 @@ pub struct Discrepancy {
 
 /// One of the motions that the hinges resist least.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Motion {
+pub struct HingeMotion {
     /// Its singular value.
     pub sigma: f64,
     /// `(C, C̄)` of each body, in the scaled structure, the far node moving by 1.
@@ -49,7 +49,7 @@ pub struct Paper {
     /// The largest.
     pub largest: f64,
     /// The motions of the smallest that move a hinge.
-    pub motions: Vec<Motion>,
+    pub motions: Vec<HingeMotion>,
     /// Per hinge and pair of bodies, in the first of these motions.
     pub discrepancies: Vec<Discrepancy>,
 }
@@ -84,8 +84,11 @@ pub(super) fn paper(
         (1..free.bodies.len()).map(|body| 6 - free_rank(&free, body)).sum();
     let far = far_node(&free);
     let moving = twists.into_iter().zip(&sigma);
-    let motions: Vec<Motion> = moving
-        .map(|(twists, &sigma)| Motion { sigma, twists: normalised(&free, far, twists) })
+    let motions: Vec<HingeMotion> = moving
+        .map(|(twists, &sigma)| HingeMotion {
+            sigma,
+            twists: normalised(&free, far, twists),
+        })
         .collect();
     sigma.splice(0..0, std::iter::repeat_n(0.0, spins.min(wanted)));
     sigma.truncate(wanted);
@@ -162,7 +165,7 @@ impl Paper {
     }
 }
 
-fn discrepancies(model: &Model, motion: &Motion) -> Vec<Discrepancy> {
+fn discrepancies(model: &Model, motion: &HingeMotion) -> Vec<Discrepancy> {
     let mut all = Vec::new();
     for coupling in &model.couplings {
         for (k, &a) in coupling.bodies.iter().enumerate() {

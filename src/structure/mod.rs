@@ -9,8 +9,8 @@
 mod check;
 mod crossing;
 mod draft;
-pub mod exchange;
 mod finding;
+pub mod interop;
 mod json;
 mod meeting;
 mod node;

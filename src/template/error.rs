@@ -8,7 +8,7 @@ use thiserror::Error;
 /// One thing wrong with a template.
 #[derive(Debug, Clone, PartialEq, Error, Diagnostic)]
 #[allow(missing_docs, reason = "the messages say what the fields are")]
-pub enum Fault {
+pub enum TemplateFault {
     #[error("{}{message}", at(*line))]
     #[diagnostic(
         code(template::bad_toml),
@@ -61,7 +61,7 @@ pub enum Fault {
     UnknownName { found: String, nearest: String },
 }
 
-impl Located for Fault {
+impl Located for TemplateFault {
     fn place(&self) -> Place {
         match *self {
             Self::BadToml { line, .. }
@@ -86,7 +86,7 @@ pub struct TemplateErrors {
     /// Name of the template.
     pub name: String,
     /// At least one fault.
-    pub faults: Vec<Fault>,
+    pub faults: Vec<TemplateFault>,
 }
 
 impl fmt::Display for TemplateErrors {

@@ -2,7 +2,7 @@
 
 use crate::diagnostic::short;
 use crate::template::Template;
-use crate::template::error::Fault;
+use crate::template::error::TemplateFault;
 use toml::{Table, Value};
 
 /// What a value has to be.
@@ -129,19 +129,19 @@ pub(crate) fn nearest<'a>(
 }
 
 /// A fault of TOML itself, with its line.
-pub(super) fn syntax(source: &str, error: &toml::de::Error) -> Fault {
+pub(super) fn syntax(source: &str, error: &toml::de::Error) -> TemplateFault {
     let end = error.span().map_or(0, |span| span.start.min(source.len()));
     let line = 1 + source.get(..end).unwrap_or_default().matches('\n').count();
-    Fault::BadToml { line, message: error.message().to_owned() }
+    TemplateFault::BadToml { line, message: error.message().to_owned() }
 }
 
 /// Unknown and missing keys, wrong kinds, values out of range.
-pub(super) fn faults(file: &Table, source: &str) -> Vec<Fault> {
+pub(super) fn faults(file: &Table, source: &str) -> Vec<TemplateFault> {
     let mut faults = Vec::new();
     let known = || TABLES.iter().map(|(table, _)| *table);
     for found in file.keys().filter(|found| !known().any(|table| table == found.as_str()))
     {
-        faults.push(Fault::UnknownKey {
+        faults.push(TemplateFault::UnknownKey {
             line: line(source, "", found),
             table: "the file".to_owned(),
             found: found.clone(),
@@ -160,13 +160,13 @@ pub(super) fn faults(file: &Table, source: &str) -> Vec<Fault> {
             }
             None if keys.iter().any(|key| key.needed) => {
                 let table = table.to_string();
-                faults.push(Fault::MissingKey {
+                faults.push(TemplateFault::MissingKey {
                     table,
                     key: "(the whole table)".to_owned(),
                 });
             }
             None => {}
-            Some(found) => faults.push(Fault::WrongType {
+            Some(found) => faults.push(TemplateFault::WrongType {
                 line: line(source, "", table),
                 key: table.to_string(),
                 found: found.type_str().to_owned(),
@@ -177,14 +177,19 @@ pub(super) fn faults(file: &Table, source: &str) -> Vec<Fault> {
     faults
 }
 
-fn table_faults(table: &str, found: &Table, keys: &[Key], source: &str) -> Vec<Fault> {
+fn table_faults(
+    table: &str,
+    found: &Table,
+    keys: &[Key],
+    source: &str,
+) -> Vec<TemplateFault> {
     let mut faults = Vec::new();
     for (name, value) in found {
         match keys.iter().find(|key| key.name == name) {
             Some(key) => {
                 faults.extend(value_fault(key, value, line(source, table, name)));
             }
-            None => faults.push(Fault::UnknownKey {
+            None => faults.push(TemplateFault::UnknownKey {
                 line: line(source, table, name),
                 table: format!("[{table}]"),
                 found: name.clone(),
@@ -193,14 +198,14 @@ fn table_faults(table: &str, found: &Table, keys: &[Key], source: &str) -> Vec<F
         }
     }
     let missing = keys.iter().filter(|key| key.needed && !found.contains_key(key.name));
-    faults.extend(missing.map(|key| Fault::MissingKey {
+    faults.extend(missing.map(|key| TemplateFault::MissingKey {
         table: table.to_owned(),
         key: key.name.to_owned(),
     }));
     faults
 }
 
-fn value_fault(key: &Key, value: &Value, line: usize) -> Option<Fault> {
+fn value_fault(key: &Key, value: &Value, line: usize) -> Option<TemplateFault> {
     let number = match value {
         Value::Float(number) => Some(*number),
         Value::Integer(number) => Some(*number as f64),
@@ -209,13 +214,8 @@ fn value_fault(key: &Key, value: &Value, line: usize) -> Option<Fault> {
     let wanted = match (key.kind, number, value) {
         (Kind::Number(least, most), Some(value), _) => {
             let key = key.name.to_owned();
-            return (!(least..=most).contains(&value)).then_some(Fault::OutOfRange {
-                line,
-                key,
-                value,
-                least,
-                most,
-            });
+            return (!(least..=most).contains(&value))
+                .then_some(TemplateFault::OutOfRange { line, key, value, least, most });
         }
         (Kind::Number(..), ..) => "a number",
         (Kind::Whole, _, Value::Integer(count)) if *count >= 0 => return None,
@@ -235,7 +235,7 @@ fn value_fault(key: &Key, value: &Value, line: usize) -> Option<Fault> {
             "\"generic\", \"lightburn\", \"rgb-lab\", \"snijlab\", \"epilog\" or \"single-part\""
         }
     };
-    Some(Fault::WrongType {
+    Some(TemplateFault::WrongType {
         line,
         key: key.name.to_owned(),
         found: value.to_string(),
@@ -267,7 +267,7 @@ fn line(source: &str, table: &str, key: &str) -> usize {
 }
 
 /// Values that do not go together.
-pub(super) fn contradictions(template: &Template) -> Vec<Fault> {
+pub(super) fn contradictions(template: &Template) -> Vec<TemplateFault> {
     let (material, bend, gate) = (&template.material, &template.bend, &template.gate);
     let mut messages = Vec::new();
     let (least, most) = (material.thickness_least_mm, material.thickness_most_mm);
@@ -311,5 +311,5 @@ pub(super) fn contradictions(template: &Template) -> Vec<Fault> {
             short(gap)
         ));
     }
-    messages.into_iter().map(|message| Fault::Contradiction { message }).collect()
+    messages.into_iter().map(|message| TemplateFault::Contradiction { message }).collect()
 }

@@ -7,7 +7,7 @@
 mod error;
 mod keys;
 
-pub use error::{Fault, TemplateErrors};
+pub use error::{TemplateErrors, TemplateFault};
 pub use keys::PROFILES;
 pub(crate) use keys::nearest;
 
@@ -30,7 +30,7 @@ pub struct Template {
     /// How tightly it bends.
     pub bend: Bend,
     /// How strips are joined.
-    pub joint: Joint,
+    pub joint: JointDefaults,
     /// Sheets in stock.
     pub sheet: Vec<SheetStock>,
     /// What is drawn.
@@ -89,7 +89,7 @@ pub enum FoldMarks {
 /// How strips and fins are joined.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[allow(missing_docs, reason = "templates/README.md describes every key")]
-pub struct Joint {
+pub struct JointDefaults {
     pub overhang_mm: f64,
     #[serde(default = "half")]
     pub lap_split: f64,
@@ -231,7 +231,7 @@ pub fn read(source: &str, name: &str) -> Result<Template, TemplateErrors> {
 /// The error for a template that is not there, with the nearest name that is.
 pub fn unknown_name(name: &str) -> TemplateErrors {
     let nearest = nearest(name, names());
-    let fault = Fault::UnknownName { found: name.to_owned(), nearest };
+    let fault = TemplateFault::UnknownName { found: name.to_owned(), nearest };
     TemplateErrors { name: name.to_owned(), faults: vec![fault] }
 }
 

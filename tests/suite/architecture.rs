@@ -185,9 +185,11 @@ fn the_proof_shares_only_what_its_page_lists() {
             let others = others.filter(|other| !shared.contains(&&**other));
             offences.extend(others.map(|o| format!("{}:{number}: {o}", source.path)));
             let maker = ["offset", "crate::parts::", "crate::export::"];
-            let allowed = ["slit.offset", "together", "LAYERS"];
+            let allowed = ["slit.offset", "LAYERS"];
+            let collides = source.path == "proof/assembled.rs";
             if maker.iter().any(|word| line.contains(word))
                 && !allowed.iter().any(|word| line.contains(word))
+                && !(collides && line.starts_with("use crate::parts::{"))
             {
                 offences.push(format!("{}:{number}: {}", source.path, line.trim()));
             }

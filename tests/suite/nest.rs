@@ -3,8 +3,8 @@
 
 use finwright::geometry::{Point2, trig};
 use finwright::nest::{
-    Effort, Fault, Layout, NestedSheet, Placement, Remnant, Rotations, Shape, Stock,
-    check, outline_fault, search, stock_fault, strip,
+    Effort, Layout, LayoutFault, NestedSheet, Placement, Remnant, Rotations, Shape,
+    Stock, check, outline_fault, search, stock_fault, strip,
 };
 use finwright::watch::Watch;
 use std::collections::BTreeSet;
@@ -202,15 +202,15 @@ fn the_check_sees_every_way_to_leave_a_remnant() {
     assert_eq!(faults(150.0, 50.0), []);
     assert_eq!(faults(4.0, 236.0), []);
     assert_eq!(faults(76.0, 230.0), []);
-    assert!(matches!(faults(77.0, 230.0)[..], [Fault::InMargin { .. }, ..]));
-    assert!(matches!(faults(200.0, 97.0)[..], [Fault::InMargin { .. }, ..]));
-    assert!(matches!(faults(200.0, 110.0)[..], [Fault::OverEdge { .. }, ..]));
-    assert!(matches!(faults(200.0, 180.0)[..], [Fault::OverEdge { .. }, ..]));
-    assert!(matches!(faults(50.0, 50.0)[..], [Fault::OverEdge { .. }, ..]));
-    assert!(matches!(faults(88.0, 50.0)[..], [Fault::InMargin { .. }, ..]));
+    assert!(matches!(faults(77.0, 230.0)[..], [LayoutFault::InMargin { .. }, ..]));
+    assert!(matches!(faults(200.0, 97.0)[..], [LayoutFault::InMargin { .. }, ..]));
+    assert!(matches!(faults(200.0, 110.0)[..], [LayoutFault::OverEdge { .. }, ..]));
+    assert!(matches!(faults(200.0, 180.0)[..], [LayoutFault::OverEdge { .. }, ..]));
+    assert!(matches!(faults(50.0, 50.0)[..], [LayoutFault::OverEdge { .. }, ..]));
+    assert!(matches!(faults(88.0, 50.0)[..], [LayoutFault::InMargin { .. }, ..]));
     let large = [board("L", [90.0, 90.0])];
     let around = check(&on_sheet(15.0, 15.0), &large, &stock);
-    assert!(matches!(around[..], [Fault::OverEdge { .. }, ..]), "{around:?}");
+    assert!(matches!(around[..], [LayoutFault::OverEdge { .. }, ..]), "{around:?}");
 }
 
 /// Remnants cost nothing and are filled first; what lies on a sheet stays there to the last

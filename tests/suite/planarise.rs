@@ -222,15 +222,15 @@ fn a_node_without_faces_takes_no_part() {
 
 #[test]
 fn exchange_forms_bring_the_axes_back() {
-    use finwright::structure::{ObjOptions, Structure, exchange, read_obj};
+    use finwright::structure::{ObjOptions, Structure, interop, read_obj};
     let draft = made(wavy()).draft;
     let (structure, _) = Structure::new(draft.clone(), &Default::default()).unwrap();
     let mesh = |text: &str| {
         let options = ObjOptions { unit: Unit::Millimetre, axes: AxisRule::Normal };
         read_obj(text, &options).unwrap().0
     };
-    let [lower, upper] = exchange::write_pair(&structure).map(|text| mesh(&text));
-    let between = exchange::between(lower, &upper).unwrap();
+    let [lower, upper] = interop::write_pair(&structure).map(|text| mesh(&text));
+    let between = interop::between(lower, &upper).unwrap();
     let unit = |mut draft: Draft| {
         for axis in &mut draft.axes {
             axis.normalize_mut();
@@ -238,14 +238,13 @@ fn exchange_forms_bring_the_axes_back() {
         draft
     };
     same(&unit(between), &draft);
-    let [base, lines] = exchange::write_lines(&structure);
+    let [base, lines] = interop::write_lines(&structure);
     let mut read = mesh(&base);
-    read.axes = exchange::axes_from_lines(&read, &lines, Unit::Millimetre).unwrap();
+    read.axes = interop::axes_from_lines(&read, &lines, Unit::Millimetre).unwrap();
     same(&unit(read), &draft);
-    let compas = exchange::write_compas(&structure);
-    assert!(exchange::is_compas(&compas));
-    let read =
-        exchange::read_compas(&compas, Unit::Millimetre, AxisRule::File).unwrap().0;
+    let compas = interop::write_compas(&structure);
+    assert!(interop::is_compas(&compas));
+    let read = interop::read_compas(&compas, Unit::Millimetre, AxisRule::File).unwrap().0;
     same(&read, &draft);
     assert_eq!(read.fin_ids().len(), draft.fin_ids().len());
 }
