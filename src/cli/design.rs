@@ -6,7 +6,7 @@ use crate::cli::input;
 use crate::cli::jobdir::JobDirError;
 use crate::cli::outcome::{End, Failure, print};
 use crate::design::planarise::PlanariseError;
-use crate::design::surface::{Polygons, Surface, clean};
+use crate::design::surface::{FormatError, Polygons, Surface, clean, read_ply, read_stl};
 use crate::design::{
     Align, DesignFigures, Designed, SURFACES, SingularWish, Size, Wishes, design,
     design_picture, surface_named,
@@ -37,6 +37,15 @@ const FINS: [usize; 4] = [2, 3, 5, 6];
 struct BadPlace {
     path: PathBuf,
     line: usize,
+}
+
+/// A file that holds no surface.
+#[derive(Debug, Error, Diagnostic)]
+#[error("{}: {source}", path.display())]
+#[diagnostic(forward(source))]
+struct BadSurface {
+    path: PathBuf,
+    source: FormatError,
 }
 
 /// A surface with its name and what was found in it.
@@ -103,6 +112,9 @@ fn read(args: &DesignArgs) -> Result<Read, Failure> {
         polygons.axes = polygons.axes.filter(|_| args.axes != AxisRule::Normal);
         return Ok(Read { name: named.to_owned(), polygons, findings: Vec::new() });
     }
+    if let Some(read) = dense(Path::new(named), args)? {
+        return Ok(read);
+    }
     let reading =
         InputOptions { units: args.units, axes: args.axes, ..InputOptions::default() };
     let input = input::read(named, &reading)?;
@@ -117,6 +129,28 @@ fn read(args: &DesignArgs) -> Result<Read, Failure> {
         axes: (!normals).then_some(input.draft.axes),
     };
     Ok(Read { name: input.draft.name, polygons, findings })
+}
+
+/// A surface in a format that holds no structures: STL or PLY.
+fn dense(path: &Path, args: &DesignArgs) -> Result<Option<Read>, Failure> {
+    let ending = path.extension().unwrap_or_default().to_string_lossy().to_lowercase();
+    let read = match ending.as_str() {
+        "stl" => read_stl,
+        "ply" => read_ply,
+        _ => return Ok(None),
+    };
+    let bytes = input::raw_bytes_of(path)?;
+    let bad = |source| Failure::of(BadSurface { path: path.to_owned(), source });
+    let mut polygons = read(&bytes).map_err(bad)?;
+    match args.axes {
+        AxisRule::File => {}
+        AxisRule::Normal => polygons.axes = None,
+        rule => polygons.axes = rule.axes(&polygons.positions, &[]),
+    }
+    let unit = args.units.unwrap_or(Unit::Millimetre).millimetres();
+    polygons.positions.iter_mut().for_each(|position| *position *= unit);
+    let name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+    Ok(Some(Read { name, polygons, findings: Vec::new() }))
 }
 
 fn wishes(args: &DesignArgs) -> Result<Wishes, Failure> {

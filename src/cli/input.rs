@@ -181,6 +181,12 @@ fn text(path: &Path, bytes: Vec<u8>) -> Result<String, InputError> {
     })
 }
 
+/// The bytes of a file of any kind.
+pub(super) fn raw_bytes_of(path: &Path) -> Result<Vec<u8>, InputError> {
+    let unreadable = |source| InputError::Unreadable { path: path.to_owned(), source };
+    std::fs::read(path).map_err(unreadable)
+}
+
 /// The bytes of a text file in any encoding but UTF-16.
 pub(super) fn bytes_of(path: &Path) -> Result<Vec<u8>, InputError> {
     bytes(path, |_| Ok(()))

@@ -14,6 +14,7 @@ from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from pathlib import Path
 
+import design
 import nesting
 from check_job import check_same
 from nest_layout import faults as layout_faults
@@ -66,6 +67,10 @@ CONNECTED_MESHES: dict[str, list[str]] = {
     "quad_dome.obj": ["--joint", "hub", "--units", "m", "--scale", "1:20"],
     "YasIsland.obj": ["--joint", "hub", "--units", "m", "--scale", "1:5", "-t", "pmma-xt-1.5"],
 }
+
+
+# Surfaces to design on, trimmed and aligned.
+DESIGNED: list[tuple[str, list[str]]] = [("hill", []), ("dome-surface", ["--align", "boundary"]), ("court", ["--axes", "point:0,0,-3000"])]
 
 
 @dataclass
@@ -147,6 +152,19 @@ class Runner:
             worst = float(planarities(out).max())
             self.note(name, worst <= PLANAR_ENOUGH and abs(worst - said) <= SAME, f"worst fin {100 * worst:.2e} %, said {100 * said:.2e} %")
 
+    def design(self, name: str, words: list[str]) -> None:
+        """Designs on an embedded surface and finds every figure of the report again from structure and surface."""
+        label = " ".join(["design", name, *words])
+        place = self.scratch / label.replace(" ", "-")
+        surface, out = place.with_suffix(".obj"), place.with_suffix(".json")
+        written = self.finwright("example", "write", name, "-o", str(surface))
+        ran = self.finwright("design", str(surface), "--nodes", "400", *words, "-o", str(out), "-q", "--json")
+        if written.returncode != 0 or ran.returncode != 0:
+            self.note(label, False, (written.stderr + ran.stderr).strip()[-300:])
+            return
+        misses = design.differences(out, design.Surface(surface), json.loads(ran.stdout))
+        self.note(label, not misses, "; ".join(misses))
+
     def compare(self, case: Case, folder: str) -> None:
         made = self.make(case, f"{folder}-again")
         if made.returncode != 0:
@@ -209,6 +227,9 @@ def main() -> int:
             started += [pool.submit(runner.planarise, (options.meshes / name).resolve()) for name in meshes]
             if options.only in "nest":
                 started.append(pool.submit(nesting.checked, runner, layout_faults))
+            for name, words in DESIGNED:
+                if options.only in f"design {name}":
+                    started.append(pool.submit(runner.design, name, words))
             if options.only in "coupon":
                 started.append(pool.submit(runner.coupon))
             for task in started:

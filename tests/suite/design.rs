@@ -264,3 +264,112 @@ fn even_cells_are_paid_for_by_axes_and_both_are_said() {
     assert!(even.figures.axis_turn_deg.max <= 13.0);
     assert!(even.findings.iter().any(|finding| finding.code == "design::evened"));
 }
+
+/// A surface of triangles in five formats, each with its ending.
+fn in_all_formats(surface: &Surface) -> [(&'static str, Vec<u8>); 5] {
+    let corners =
+        |t: &[usize; 3]| t.map(|k| surface.positions[k].coords.map(|x| x as f32));
+    let (mut obj, mut stl) = (String::new(), "solid s\n".to_owned());
+    let mut stl_binary = vec![b' '; 80];
+    stl_binary.extend((surface.triangles.len() as u32).to_le_bytes());
+    let head = |format: &str| {
+        let (v, f) = (surface.positions.len(), surface.triangles.len());
+        format!(
+            "ply\nformat {format} 1.0\nelement vertex {v}\nproperty float x\n\
+             property float y\nproperty float z\nelement face {f}\n\
+             property list uchar int vertex_index\nend_header\n"
+        )
+    };
+    let mut little = head("binary_little_endian").into_bytes();
+    let mut big = head("binary_big_endian").into_bytes();
+    for p in &surface.positions {
+        let p = p.coords.map(|x| x as f32);
+        obj += &format!("v {} {} {}\n", f64::from(p.x), f64::from(p.y), f64::from(p.z));
+        p.iter().for_each(|x| little.extend(x.to_le_bytes()));
+        p.iter().for_each(|x| big.extend(x.to_be_bytes()));
+    }
+    for t in &surface.triangles {
+        obj += &format!("f {} {} {}\n", t[0] + 1, t[1] + 1, t[2] + 1);
+        stl += "facet normal 0 0 0\nouter loop\n";
+        stl_binary.extend([0; 12]);
+        for p in corners(t) {
+            stl += &format!(
+                "vertex {} {} {}\n",
+                f64::from(p.x),
+                f64::from(p.y),
+                f64::from(p.z)
+            );
+            p.iter().for_each(|x| stl_binary.extend(x.to_le_bytes()));
+        }
+        stl += "endloop\nendfacet\n";
+        stl_binary.extend([0; 2]);
+        little.push(3);
+        big.push(3);
+        t.iter().for_each(|&k| little.extend((k as i32).to_le_bytes()));
+        t.iter().for_each(|&k| big.extend((k as i32).to_be_bytes()));
+    }
+    [
+        ("obj", obj.into_bytes()),
+        ("stl", stl.into_bytes()),
+        ("STL", stl_binary),
+        ("ply", little),
+        ("PLY", big),
+    ]
+}
+
+#[test]
+fn obj_stl_and_ply_give_the_same_bytes() {
+    let place = tempfile::tempdir().unwrap();
+    let surface = surface(patch(12, 9, |x, y| 40.0 * trig::sin(x / 70.0 + y / 90.0)));
+    let designed = |(ending, bytes): &(&str, Vec<u8>)| {
+        let dir = place.path().join(ending);
+        std::fs::create_dir_all(&dir).unwrap();
+        let path = dir.join(format!("patch.{ending}"));
+        std::fs::write(&path, bytes).unwrap();
+        let output = Command::new(env!("CARGO_BIN_EXE_finwright"))
+            .args(["design", "--cell", "30", path.to_str().unwrap(), "-q"])
+            .output()
+            .unwrap();
+        assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+        output.stdout
+    };
+    let files = in_all_formats(&surface);
+    let first = designed(&files[0]);
+    assert!(first.len() > 1000);
+    for file in &files[1..] {
+        assert!(first == designed(file), "{}", file.0);
+    }
+}
+
+/// Code and message of the error that a surface is refused with.
+fn refusal(polygons: Polygons) -> (String, String) {
+    let findings = clean(polygons).unwrap_err();
+    (findings[0].code.clone(), findings[0].message.clone())
+}
+
+#[test]
+fn faults_of_a_surface_are_named_with_their_place() {
+    let flat = || patch(4, 3, |_, _| 0.0);
+    let mut wall = flat();
+    wall.positions.push(Point3::new(30.0, 20.0, 50.0));
+    wall.faces.push(vec![6, 7, 20]);
+    let (code, message) = refusal(wall);
+    assert_eq!(code, "surface::not_manifold");
+    assert!(message.contains("(20.0, 20.0, 0.0)"), "{message}");
+    let mut unwelded = flat();
+    let other = patch(2, 2, |_, _| 0.0);
+    let shift = Vector3::new(80.001, 0.0, 0.0);
+    unwelded.faces.extend(other.faces.iter().map(|f| f.iter().map(|k| k + 20).collect()));
+    unwelded.positions.extend(other.positions.iter().map(|p| p + shift));
+    let (code, message) = refusal(unwelded);
+    assert_eq!(code, "surface::several_pieces");
+    assert!(message.contains("(80.0, 0.0, 0.0)"), "{message}");
+    let mut folded = flat();
+    folded.positions[9].x = 20.0;
+    let (_, findings) = clean(folded).unwrap();
+    assert!(findings.iter().any(|f| f.code == "surface::folded"), "{findings:?}");
+    let mut thin = flat();
+    thin.faces.push(vec![0, 1, 1]);
+    let (_, findings) = clean(thin).unwrap();
+    assert!(findings.iter().any(|f| f.code == "surface::faces_without_area"));
+}

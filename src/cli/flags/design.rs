@@ -29,15 +29,15 @@ pub enum AlignWhen {
 /// Arguments of `design`.
 #[derive(Debug, Args)]
 pub struct DesignArgs {
-    /// Surface to read: .obj, .json (of finwright or COMPAS), or the name of an embedded one
-    /// [default: hill]
+    /// Surface to read: .obj, .stl, .ply, .json (of finwright or COMPAS), or the name of an
+    /// embedded one [default: hill]
     pub surface: Option<String>,
 
     /// File to write the structure to; standard output if left out
     #[arg(short, long, value_name = "FILE")]
     pub output: Option<PathBuf>,
 
-    /// Unit of an OBJ or COMPAS file: mm, cm, m, in or ft [default: mm]
+    /// Unit of an OBJ, STL, PLY or COMPAS file: mm, cm, m, in or ft [default: mm]
     #[arg(long)]
     pub units: Option<Unit>,
 

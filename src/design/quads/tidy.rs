@@ -73,6 +73,13 @@ fn may_join(quads: &Quads, at: &[BTreeSet<usize>], keep: usize, drop: usize) -> 
     if shared.is_empty() || !shared.iter().all(beside) || shared.len() > 2 {
         return false;
     }
+    // Away from the boundary all faces stay quads.
+    let on_rim = |face: &usize| {
+        sides(&quads.faces[*face]).any(|(a, b)| at[a].intersection(&at[b]).count() == 1)
+    };
+    if shared.iter().any(|face| quads.faces[*face].len() == 4 && !on_rim(face)) {
+        return false;
+    }
     let inner = |node: usize| quads.nodes[node].rank == Rank::Inner;
     // An inner edge from boundary to boundary holds two parts together.
     if shared.len() == 2 && !inner(keep) && !inner(drop) {

@@ -76,10 +76,16 @@ pub fn clean(polygons: Polygons) -> Result<(Surface, Vec<Finding>), Vec<Finding>
     }
     let pieces = Pieces::of(&polygons.positions, &oriented.triangles);
     if pieces.count > 1 {
-        let (pieces, percent) = (pieces.count, 100.0 * pieces.largest);
-        return Err(refuse(SurfaceFinding::SeveralPieces { pieces, percent }));
+        let (count, at) = (pieces.count, pieces.other.coords.into());
+        let percent = 100.0 * pieces.largest;
+        return Err(refuse(SurfaceFinding::SeveralPieces { pieces: count, percent, at }));
     }
     let surface = compact(polygons, oriented.triangles).without_ears();
+    let folds: Vec<usize> = surface.folds().collect();
+    if let Some(&side) = folds.first() {
+        let at = surface.positions[surface.tail(side)].coords.into();
+        findings.push(SurfaceFinding::Folded { edges: folds.len(), at });
+    }
     Ok((surface, findings.into_iter().map(Finding::from).collect()))
 }
 
@@ -202,19 +208,17 @@ fn with_area(positions: &[Point3], pieces: Vec<Piece>) -> (Vec<Piece>, Vec<usize
     (kept.collect(), flat)
 }
 
-/// Drops vertices without a face and makes axes unit vectors.
+/// Numbers vertices as they first appear in triangles, so that it does not matter in what
+/// format they came, drops those without a face, and makes axes unit vectors.
 fn compact(polygons: Polygons, mut triangles: Vec<[usize; 3]>) -> Surface {
     let mut number = vec![None; polygons.positions.len()];
-    triangles.iter().flatten().for_each(|&vertex| number[vertex] = Some(0));
     let mut kept = Vec::new();
-    for (vertex, number) in number.iter_mut().enumerate() {
-        if number.is_some() {
-            *number = Some(kept.len());
-            kept.push(vertex);
-        }
-    }
     for corner in triangles.iter_mut().flatten() {
-        *corner = number[*corner].unwrap_or_default();
+        let vertex = *corner;
+        *corner = *number[vertex].get_or_insert_with(|| {
+            kept.push(vertex);
+            kept.len() - 1
+        });
     }
     let unit = |axis: Vector3| axis.try_normalize(0.0).unwrap_or(Vector3::z());
     let axes = polygons.axes.map(|axes| kept.iter().map(|&k| unit(axes[k])).collect());

@@ -21,40 +21,19 @@ pub(super) fn oriented(
     pieces: Vec<Piece>,
 ) -> Result<Oriented, SurfaceFinding> {
     let mut triangles: Vec<[usize; 3]> = pieces.iter().map(|p| p.corners).collect();
-    let beside = neighbours(&triangles)?;
+    let place = |vertex: usize| polygons.positions[vertex].coords.into();
+    let beside = neighbours(&triangles).map_err(|(edges, ends)| {
+        SurfaceFinding::NotManifold { edges, ends, at: place(ends[0]) }
+    })?;
     let mut turn: Vec<Option<bool>> = vec![None; triangles.len()];
     for start in 0..triangles.len() {
         if turn[start].is_some() {
             continue;
         }
-        turn[start] = Some(false);
-        let mut piece = vec![start];
-        let mut at = 0;
-        while let Some(&triangle) = piece.get(at) {
-            at += 1;
-            let own = turn[triangle] == Some(true);
-            for side in sides_of(triangle) {
-                let other = beside[side];
-                if other == NONE {
-                    continue;
-                }
-                let tail = |s: usize| triangles[s / 3][s % 3];
-                // Two triangles agree if they run along their edge against each other.
-                let wanted = own ^ (tail(side) == tail(other));
-                match turn[other / 3] {
-                    None => {
-                        turn[other / 3] = Some(wanted);
-                        piece.push(other / 3);
-                    }
-                    Some(turned) if turned != wanted => {
-                        return Err(SurfaceFinding::OneSided {
-                            face: pieces[other / 3].face,
-                        });
-                    }
-                    Some(_) => {}
-                }
-            }
-        }
+        let piece = piece(&triangles, &beside, &mut turn, start).map_err(|other| {
+            let (face, at) = (pieces[other].face, place(triangles[other][0]));
+            SurfaceFinding::OneSided { face, at }
+        })?;
         if shows_back(polygons, &triangles, &piece, &turn) {
             piece.iter().for_each(|&t| turn[t] = turn[t].map(|turned| !turned));
         }
@@ -68,6 +47,39 @@ pub(super) fn oriented(
     }
     turned.dedup();
     Ok(Oriented { triangles, turned })
+}
+
+/// The triangles that hang together with one, each told whether it must be turned to agree
+/// with it; or the first that cannot agree.
+fn piece(
+    triangles: &[[usize; 3]],
+    beside: &[usize],
+    turn: &mut [Option<bool>],
+    start: usize,
+) -> Result<Vec<usize>, usize> {
+    turn[start] = Some(false);
+    let (mut piece, mut at) = (vec![start], 0);
+    while let Some(&triangle) = piece.get(at) {
+        at += 1;
+        for side in sides_of(triangle) {
+            let other = beside[side];
+            if other == NONE {
+                continue;
+            }
+            let tail = |s: usize| triangles[s / 3][s % 3];
+            // Two triangles agree if they run along their edge against each other.
+            let wanted = turn[triangle].map(|own| own ^ (tail(side) == tail(other)));
+            match turn[other / 3] {
+                None => {
+                    turn[other / 3] = wanted;
+                    piece.push(other / 3);
+                }
+                turned if turned != wanted => return Err(other / 3),
+                _ => {}
+            }
+        }
+    }
+    Ok(piece)
 }
 
 /// Whether a piece, turned as planned, shows the other side than its axes or its area.
@@ -92,8 +104,9 @@ fn shows_back(
     piece.iter().map(share).sum::<f64>() < 0.0
 }
 
-/// The half-edge beside each along its edge, whichever way it runs.
-fn neighbours(triangles: &[[usize; 3]]) -> Result<Vec<usize>, SurfaceFinding> {
+/// The half-edge beside each along its edge, whichever way it runs; or how many edges have
+/// more than two, and the ends of the first.
+fn neighbours(triangles: &[[usize; 3]]) -> Result<Vec<usize>, (usize, [usize; 2])> {
     let sides = sides_by_edge(triangles);
     let mut beside = vec![NONE; 3 * triangles.len()];
     let (mut edges, mut first) = (0, None);
@@ -107,7 +120,7 @@ fn neighbours(triangles: &[[usize; 3]]) -> Result<Vec<usize>, SurfaceFinding> {
             }
         }
     }
-    first.map_or(Ok(beside), |ends| Err(SurfaceFinding::NotManifold { edges, ends }))
+    first.map_or(Ok(beside), |ends| Err((edges, ends)))
 }
 
 /// Gives every fan but the first of a vertex a vertex of its own; returns how many
@@ -161,6 +174,8 @@ pub(super) struct Pieces {
     pub count: usize,
     /// Share of the area in the largest.
     pub largest: f64,
+    /// A corner of a piece that is not the largest.
+    pub other: Point3,
 }
 
 impl Pieces {
@@ -182,10 +197,12 @@ impl Pieces {
                     }
                 }
             }
-            areas.push(area);
+            areas.push((area, positions[triangles[start][0]]));
         }
-        let total: f64 = areas.iter().sum();
-        let largest = areas.iter().copied().fold(0.0, f64::max) / total;
-        Self { count: areas.len(), largest }
+        let total: f64 = areas.iter().map(|piece| piece.0).sum();
+        areas.sort_by(|a, b| b.0.total_cmp(&a.0));
+        let largest = areas.first().map_or(0.0, |piece| piece.0 / total);
+        let other = areas.get(1).map_or(Point3::origin(), |piece| piece.1);
+        Self { count: areas.len(), largest, other }
     }
 }

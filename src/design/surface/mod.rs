@@ -11,13 +11,21 @@ mod faults;
 mod finding;
 mod foot;
 mod measure;
+mod ply;
+mod stl;
 
 pub use clean::{Polygons, clean};
-pub use finding::SurfaceFinding;
+pub use finding::{FormatError, SurfaceFinding};
 pub use foot::Foot;
 pub use measure::Measures;
+pub use ply::read_ply;
+pub use stl::read_stl;
 
 use crate::geometry::{Point3, Vector3};
+use crate::structure::area_vector;
+
+/// Cosine of the angle between neighbours from which on they are folded: 150°.
+const FOLDED: f64 = -0.866;
 
 /// No half-edge.
 const NONE: usize = usize::MAX;
@@ -125,6 +133,18 @@ impl Surface {
         let rim = (0..self.side_count()).filter(|&side| self.is_boundary(side)).count();
         let edges = (self.side_count() + rim) / 2;
         self.positions.len() as i64 - edges as i64 + self.triangles.len() as i64
+    }
+
+    /// Inner edges, by one half-edge each, at which the surface is folded back on itself.
+    fn folds(&self) -> impl Iterator<Item = usize> + '_ {
+        let normal = |side: usize| {
+            let area = area_vector(&self.positions, &self.triangles[side / 3]);
+            area.try_normalize(0.0).unwrap_or_default()
+        };
+        (0..self.side_count()).filter(move |&side| {
+            let twin = self.twin(side).filter(|&twin| side < twin);
+            twin.is_some_and(|twin| normal(side).dot(&normal(twin)) < FOLDED)
+        })
     }
 
     /// Length of the edge of a half-edge.
