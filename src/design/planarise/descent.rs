@@ -8,7 +8,8 @@
 //! Planarity weighs more from round to round until the target is met; the polish then takes
 //! the shortest way to exact planarity.
 
-use crate::design::planarise::energy::{Energy, Feet, State};
+use crate::design::planarise::energy::Energy;
+use crate::design::planarise::given::{Feet, State};
 use crate::design::planarise::matrix::{NormalMatrix, SIZE};
 use crate::geometry::Vector3;
 use crate::sparse::{Cholesky, Ordering};

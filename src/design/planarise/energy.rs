@@ -5,60 +5,12 @@
 //! moving and scaling the input changes nothing. Every row knows its derivative; feet on
 //! the given surface are frozen while a system is solved and sought again after each step.
 
+use crate::design::planarise::given::{At, Feet, Given, Slope, State, slope};
 use crate::design::planarise::matrix::{NormalMatrix, SIZE};
-use crate::design::planarise::surface::{Foot, Surface, unit};
+use crate::design::planarise::surface::unit;
 use crate::design::planarise::terms::{Planarity, Stencil, Term};
 use crate::geometry::{Point3, Vector3};
 use crate::structure::planarity;
-
-/// Derivative of a row by a node's position and axis.
-pub(super) type Slope = [f64; SIZE];
-
-/// Positions and axes.
-#[derive(Debug, Clone, PartialEq)]
-pub(super) struct State {
-    pub positions: Vec<Point3>,
-    pub axes: Vec<Vector3>,
-}
-
-/// A fin with how far it reaches at its ends.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Fin {
-    pub ends: [usize; 2],
-    /// Below and above, at both ends.
-    pub reach: [[f64; 2]; 2],
-}
-
-/// Where a node comes down.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Feet {
-    /// On the given surface.
-    pub surface: Option<Foot>,
-    /// On the boundary, and the direction inside the surface away from it.
-    pub boundary: Option<(Point3, Vector3)>,
-}
-
-/// What is given, with nodes in the order of elimination.
-pub(super) struct Given {
-    pub start: State,
-    pub fins: Vec<Fin>,
-    /// Edges of the mesh.
-    pub edges: Vec<[usize; 2]>,
-    pub surface: Surface,
-    /// How far each node may move.
-    pub reach: Vec<f64>,
-    /// Whether each node's position and axis are free.
-    pub free: Vec<[bool; 2]>,
-    /// The place of each node of the mesh.
-    pub place: Vec<usize>,
-}
-
-/// Where nodes and axes are now, for terms to look at.
-pub(super) struct At<'a> {
-    pub given: &'a Given,
-    pub now: &'a State,
-    pub feet: &'a [Feet],
-}
 
 /// The sum of squares.
 pub(super) struct Energy {
@@ -66,32 +18,6 @@ pub(super) struct Energy {
     pub planarity: Planarity,
     /// What is wished for besides.
     pub wishes: Vec<Box<dyn Term>>,
-}
-
-impl Given {
-    /// The same with node `order[k]` as the `k`-th.
-    pub(super) fn renumbered(mut self, order: &[usize]) -> Self {
-        order.iter().enumerate().for_each(|(k, &node)| self.place[node] = k);
-        let fins = self.fins.iter_mut().map(|fin| &mut fin.ends);
-        for node in fins.chain(&mut self.edges).flatten() {
-            *node = self.place[*node];
-        }
-        Self {
-            start: State {
-                positions: order.iter().map(|&node| self.start.positions[node]).collect(),
-                axes: order.iter().map(|&node| self.start.axes[node]).collect(),
-            },
-            surface: self.surface.renumbered(order),
-            reach: order.iter().map(|&node| self.reach[node]).collect(),
-            free: order.iter().map(|&node| self.free[node]).collect(),
-            ..self
-        }
-    }
-
-    /// Pairs of nodes that a row may couple.
-    pub(super) fn coupled(&self) -> Vec<[usize; 2]> {
-        self.fins.iter().map(|fin| fin.ends).chain(self.edges.iter().copied()).collect()
-    }
 }
 
 impl Energy {
@@ -248,11 +174,6 @@ impl Stencil {
         }
         slope(moved * self.weights[0], turned * self.weights[1])
     }
-}
-
-/// A derivative by position and by axis.
-pub(super) fn slope(position: Vector3, axis: Vector3) -> Slope {
-    [position.x, position.y, position.z, axis.x, axis.y, axis.z]
 }
 
 #[cfg(test)]

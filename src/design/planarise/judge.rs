@@ -1,8 +1,8 @@
 //! What has to be said about a result.
 
-use crate::design::planarise::energy::State;
 use crate::design::planarise::figures::{Figures, Spread};
 use crate::design::planarise::finding::{DesignFinding, Reason};
+use crate::design::planarise::given::State;
 use crate::design::planarise::options::Options;
 use crate::design::planarise::setup::Task;
 use crate::design::planarise::surface::Surface;

@@ -1,7 +1,7 @@
 //! What may be chosen, and what it does.
 
-use crate::design::planarise::terms::Weights;
 use crate::tolerance::PLANAR_ENOUGH;
+use std::collections::BTreeMap;
 
 /// How to planarise.
 #[derive(Debug, Clone, PartialEq)]
@@ -36,5 +36,37 @@ impl Default for Options {
             move_limit: 0.2,
             steps: 120,
         }
+    }
+}
+
+/// What the energy may be asked for.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Wish {
+    /// As the command line names it.
+    pub name: &'static str,
+    /// How much it counts, unless chosen otherwise.
+    pub weight: f64,
+    /// What a higher weight does.
+    pub sentence: &'static str,
+}
+
+/// How much each wish counts. A residual of one is a fin out of plane by its own height,
+/// or a node one median fin length away from where it should be.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Weights {
+    chosen: BTreeMap<&'static str, f64>,
+}
+
+impl Weights {
+    /// The same with a weight chosen.
+    #[must_use]
+    pub fn with(mut self, wish: &Wish, weight: f64) -> Self {
+        self.chosen.insert(wish.name, weight);
+        self
+    }
+
+    /// The weight of a wish: as chosen, else its own.
+    pub fn of(&self, wish: &Wish) -> f64 {
+        self.chosen.get(wish.name).copied().unwrap_or(wish.weight)
     }
 }

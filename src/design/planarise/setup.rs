@@ -1,6 +1,7 @@
 //! From a mesh and options to the energy that is minimised.
 
-use crate::design::planarise::energy::{Energy, Fin, Given, State};
+use crate::design::planarise::energy::Energy;
+use crate::design::planarise::given::{Fin, Given, State};
 use crate::design::planarise::matrix::node_order;
 use crate::design::planarise::options::Options;
 use crate::design::planarise::surface::{Surface, rim_beside, unit};

@@ -1,7 +1,8 @@
 //! Boundary nodes keep to the given boundary: their distance inside the surface.
 
-use crate::design::planarise::energy::{At, Slope, slope};
-use crate::design::planarise::terms::{Term, Wish};
+use crate::design::planarise::given::{At, Slope, slope};
+use crate::design::planarise::options::Wish;
+use crate::design::planarise::terms::Term;
 use crate::geometry::Vector3;
 
 pub(super) const WISH: Wish = Wish {

@@ -1,8 +1,9 @@
 //! Neighbours change alike, along every edge, whether it carries a fin or not: spacing and
 //! sweep stay as given.
 
-use crate::design::planarise::energy::Given;
-use crate::design::planarise::terms::{Stencil, Term, Weights, Wish};
+use crate::design::planarise::given::Given;
+use crate::design::planarise::options::{Weights, Wish};
+use crate::design::planarise::terms::{Stencil, Term};
 
 pub(super) const WISH: Wish = Wish {
     name: "fairness",

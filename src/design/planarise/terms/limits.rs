@@ -1,9 +1,9 @@
 //! Soft walls: axes stand up from the surface, and nodes go no farther than they may.
 
-use crate::design::planarise::energy::{At, Given, Slope, slope};
-use crate::design::planarise::options::Options;
+use crate::design::planarise::given::{At, Given, Slope, slope};
+use crate::design::planarise::options::{Options, Wish};
 use crate::design::planarise::surface::unit;
-use crate::design::planarise::terms::{Term, Wish};
+use crate::design::planarise::terms::Term;
 use crate::geometry::{Vector3, trig};
 
 pub(super) const WISH: Wish = Wish {

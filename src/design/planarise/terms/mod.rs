@@ -14,20 +14,8 @@ mod unit_axes;
 
 pub(super) use planarity::Planarity;
 
-use crate::design::planarise::energy::{At, Fin, Given, Slope};
-use crate::design::planarise::options::Options;
-use std::collections::BTreeMap;
-
-/// What the energy may be asked for.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Wish {
-    /// As the command line names it.
-    pub name: &'static str,
-    /// How much it counts, unless chosen otherwise.
-    pub weight: f64,
-    /// What a higher weight does.
-    pub sentence: &'static str,
-}
+use crate::design::planarise::given::{At, Fin, Given, Slope};
+use crate::design::planarise::options::{Options, Wish};
 
 /// All that can be weighed, in the order of help texts.
 pub const WISHES: [Wish; 7] = [
@@ -39,27 +27,6 @@ pub const WISHES: [Wish; 7] = [
     stay::AXES,
     limits::WISH,
 ];
-
-/// How much each wish counts. A residual of one is a fin out of plane by its own height,
-/// or a node one median fin length away from where it should be.
-#[derive(Debug, Clone, PartialEq, Default)]
-pub struct Weights {
-    chosen: BTreeMap<&'static str, f64>,
-}
-
-impl Weights {
-    /// The same with a weight chosen.
-    #[must_use]
-    pub fn with(mut self, wish: &Wish, weight: f64) -> Self {
-        self.chosen.insert(wish.name, weight);
-        self
-    }
-
-    /// The weight of a wish: as chosen, else its own.
-    pub fn of(&self, wish: &Wish) -> f64 {
-        self.chosen.get(wish.name).copied().unwrap_or(wish.weight)
-    }
-}
 
 /// Rows of residuals at fins and nodes; the sum of their squares is minimised.
 pub(super) trait Term {

@@ -2,8 +2,9 @@
 //! ("Freeform Shading and Lighting Systems from Planar Quads", on torsion-free support
 //! structures). Its weight is raised until the target is met.
 
-use crate::design::planarise::energy::{At, Fin, Slope, slope};
-use crate::design::planarise::terms::{Term, Weights, Wish};
+use crate::design::planarise::given::{At, Fin, Slope, slope};
+use crate::design::planarise::options::{Weights, Wish};
+use crate::design::planarise::terms::Term;
 
 pub(super) const WISH: Wish = Wish {
     name: "planarity",

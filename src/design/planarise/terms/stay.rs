@@ -1,7 +1,8 @@
 //! Nodes stay where they are, axes as they start.
 
-use crate::design::planarise::energy::Given;
-use crate::design::planarise::terms::{Stencil, Term, Weights, Wish};
+use crate::design::planarise::given::Given;
+use crate::design::planarise::options::{Weights, Wish};
+use crate::design::planarise::terms::{Stencil, Term};
 
 pub(super) const WISH: Wish = Wish {
     name: "stay",

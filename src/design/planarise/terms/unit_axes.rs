@@ -1,6 +1,6 @@
 //! Axes have length one.
 
-use crate::design::planarise::energy::{At, Slope, slope};
+use crate::design::planarise::given::{At, Slope, slope};
 use crate::design::planarise::terms::Term;
 use crate::geometry::Vector3;
 
