@@ -102,6 +102,11 @@ id! {
     StripId
 }
 
+id! {
+    /// A part of a job, in the order of assembly.
+    PartId
+}
+
 /// A fin, by the two nodes between which it stands, the smaller number first. At most one
 /// fin stands between two nodes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize)]

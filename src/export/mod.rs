@@ -116,7 +116,7 @@ fn side_by_side(
 
 /// Letters from the lower left to the upper right corner of a sheet.
 fn stamp(sheet: &Sheet, text: &str) -> Vec<Vec<Point2>> {
-    let Ok(lettering) = letter(text, 1.0) else { return Vec::new() };
+    let lettering = letter(text, 1.0).expect("the font has all capitals");
     let along = crate::geometry::Vector2::new(sheet.width, sheet.height) * 0.8;
     let size = along.norm() / lettering.width;
     let (along, start) = (along.normalize(), along / 8.0);

@@ -10,6 +10,7 @@ use tiny_skia::{
 use super::arcs::{Step, steps};
 use super::{LAYERS, Layer};
 use crate::geometry::Point2;
+use crate::ids::PartId;
 use crate::picture::{self, PngError, TINTS};
 use crate::sheets::{Operation, Path, Sheet};
 
@@ -71,7 +72,7 @@ impl Picture {
 
     /// Fills each part but not its holes.
     fn tint_parts(&mut self, sheet: &Sheet) {
-        let mut parts: BTreeMap<usize, PathBuilder> = BTreeMap::new();
+        let mut parts: BTreeMap<PartId, PathBuilder> = BTreeMap::new();
         for stroke in &sheet.strokes {
             let is_cut = stroke.operation >= Operation::CutInner;
             if is_cut && matches!(stroke.path, Path::Closed(_)) {
@@ -80,7 +81,7 @@ impl Picture {
         }
         for (part, builder) in parts {
             if let Some(outline) = builder.finish() {
-                let paint = paint(TINTS[part % TINTS.len()], 255);
+                let paint = paint(TINTS[part.index() % TINTS.len()], 255);
                 let (rule, still) = (FillRule::EvenOdd, Transform::identity());
                 self.pixels.fill_path(&outline, &paint, rule, still, None);
             }

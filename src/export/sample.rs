@@ -5,7 +5,8 @@ use crate::geometry::{Contour, Point2, Vertex, trig};
 use crate::sheets::{Operation, Path, Sheet, Stroke};
 
 pub(super) fn sample() -> Sheet {
-    let stroke = |operation, part, path| Stroke { operation, part, path };
+    let stroke =
+        |operation, part: usize, path| Stroke { operation, part: part.into(), path };
     let strokes = vec![
         stroke(Operation::Engrave, 0, open(&[(30.0, 60.0), (33.0, 66.0), (36.0, 60.0)])),
         stroke(Operation::Engrave, 1, open(&[(210.1, 55.5), (217.3, 55.5)])),

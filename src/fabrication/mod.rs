@@ -7,7 +7,7 @@ pub use judge::{criteria, plan, verdict, with_remedies};
 use crate::diagnostic::Finding;
 use crate::gate::{self, Approved, Judged, Shut};
 use crate::geometry::{Contour, Point2};
-use crate::ids::NodeId;
+use crate::ids::{NodeId, PartId};
 use crate::nest::{self, Layout, NestError, Shape};
 use crate::parts::{self, Body, Making, Part, PartFinding, Plan, Step};
 use crate::rigidity::Verdict;
@@ -113,6 +113,11 @@ impl Fabrication {
             sheets: Vec::new(),
             vendor: None,
         }
+    }
+
+    /// Its parts with their ids.
+    pub fn parts_with_ids(&self) -> impl Iterator<Item = (PartId, &Part)> {
+        (0..).map(PartId::new).zip(&self.parts)
     }
 
     /// Whether it has a part of a kind.

@@ -1,14 +1,14 @@
 //! In which order fins and discs go together.
 
-use crate::ids::NodeId;
+use crate::ids::{NodeId, PartId};
 use crate::parts::part::{Body, Part};
 use std::collections::BTreeMap;
 
 /// One step of an assembly.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Step {
-    /// Index of the part.
-    pub part: usize,
+    /// The part.
+    pub part: PartId,
     /// Which copies of it, from 1 upward as they lie on the axis.
     pub copies: [usize; 2],
 }
@@ -21,13 +21,13 @@ pub struct Step {
 /// structure, so that what stands hangs together.
 pub fn steps(parts: &[Part]) -> Vec<Step> {
     let mut sequence = Sequence::new(parts);
-    for (index, part) in parts.iter().enumerate() {
+    for (id, part) in (0..).map(PartId::new).zip(parts) {
         let Body::Strip(strip) = &part.body else { continue };
         if strip.slits.is_empty() {
             let nodes = part.body.tips().into_iter().map(|tip| tip.axis.node);
             sequence.lay_below(nodes);
         }
-        sequence.steps.push(Step { part: index, copies: [1, 1] });
+        sequence.steps.push(Step { part: id, copies: [1, 1] });
     }
     for fin in walk(parts, &sequence.at) {
         let Body::Fin(body) = &parts[fin].body else { continue };
@@ -46,30 +46,30 @@ struct Sequence<'a> {
     parts: &'a [Part],
     steps: Vec<Step>,
     /// Fins by their nodes.
-    at: BTreeMap<NodeId, Vec<usize>>,
+    at: BTreeMap<NodeId, Vec<PartId>>,
     /// Fins that are still to come, by node.
     left: BTreeMap<NodeId, usize>,
     /// Connectors that are not finished, by node.
-    open: BTreeMap<NodeId, usize>,
+    open: BTreeMap<NodeId, PartId>,
     /// Connectors whose lower plates are still to come, by node.
-    lower: BTreeMap<NodeId, usize>,
+    lower: BTreeMap<NodeId, PartId>,
 }
 
 impl<'a> Sequence<'a> {
     fn new(parts: &'a [Part]) -> Self {
-        let mut at: BTreeMap<NodeId, Vec<usize>> = BTreeMap::new();
+        let mut at: BTreeMap<NodeId, Vec<PartId>> = BTreeMap::new();
         let (mut open, mut lower) = (BTreeMap::new(), BTreeMap::new());
-        for (index, part) in parts.iter().enumerate() {
+        for (id, part) in (0..).map(PartId::new).zip(parts) {
             match &part.body {
                 Body::Fin(fin) => {
                     fin.nodes
                         .iter()
-                        .for_each(|node| at.entry(*node).or_default().push(index));
+                        .for_each(|node| at.entry(*node).or_default().push(id));
                 }
                 Body::Connector(connector) => {
-                    open.insert(connector.node(), index);
+                    open.insert(connector.node(), id);
                     if connector.plates.laid_first > 0 {
-                        lower.insert(connector.node(), index);
+                        lower.insert(connector.node(), id);
                     }
                 }
                 Body::Strip(_) | Body::Coupon => {}
@@ -83,7 +83,7 @@ impl<'a> Sequence<'a> {
     fn lay_below(&mut self, nodes: impl Iterator<Item = NodeId>) {
         for node in nodes {
             let laid = self.lower.remove(&node);
-            let copies = |part: usize| [1, laid_first(&self.parts[part])];
+            let copies = |part: PartId| [1, laid_first(&self.parts[part])];
             self.steps.extend(laid.map(|part| Step { part, copies: copies(part) }));
         }
     }
@@ -121,10 +121,10 @@ fn laid_first(part: &Part) -> usize {
 }
 
 /// All fins, each beside one that came before if there is one.
-fn walk(parts: &[Part], at: &BTreeMap<NodeId, Vec<usize>>) -> Vec<usize> {
+fn walk(parts: &[Part], at: &BTreeMap<NodeId, Vec<PartId>>) -> Vec<PartId> {
     let mut seen = vec![false; parts.len()];
-    let mut order: Vec<usize> = Vec::new();
-    for start in 0..parts.len() {
+    let mut order: Vec<PartId> = Vec::new();
+    for start in (0..parts.len()).map(PartId::new) {
         let mut next = order.len();
         let is_fin = matches!(parts[start].body, Body::Fin(_));
         if is_fin && !std::mem::replace(&mut seen[start], true) {

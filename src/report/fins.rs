@@ -2,7 +2,7 @@
 
 use crate::fabrication::Fabrication;
 use crate::geometry::Point3;
-use crate::ids::FinId;
+use crate::ids::{FinId, PartId};
 use crate::parts::{Body, Part, PlacedPlate};
 use crate::structure::Structure;
 use std::collections::BTreeMap;
@@ -37,22 +37,22 @@ pub(super) fn plates(structure: &Structure, part: &Part) -> Vec<[Point3; 4]> {
 }
 
 /// The part of each fin of the structure, if it is on one.
-pub(super) fn parts(job: &Fabrication) -> BTreeMap<FinId, usize> {
+pub(super) fn parts(job: &Fabrication) -> BTreeMap<FinId, PartId> {
     let mut of = BTreeMap::new();
-    for (index, part) in job.parts.iter().enumerate() {
+    for (id, part) in job.parts_with_ids() {
         for fin in of_part(part) {
-            of.entry(fin).or_insert(index);
+            of.entry(fin).or_insert(id);
         }
     }
     of
 }
 
 /// Where a part lies: number of its sheet, from 0.
-pub(super) fn sheets(job: &Fabrication) -> BTreeMap<usize, usize> {
+pub(super) fn sheets(job: &Fabrication) -> BTreeMap<PartId, usize> {
     let sheets = job.layout.sheets.iter().enumerate();
     sheets
         .flat_map(|(sheet, nested)| {
-            nested.placements.iter().map(move |p| (p.shape, sheet))
+            nested.placements.iter().map(move |p| (PartId::new(p.shape), sheet))
         })
         .collect()
 }

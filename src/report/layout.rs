@@ -217,7 +217,7 @@ pub fn layout_sheets(
             let drawn = lines.get(&shape.name).cloned().unwrap_or_else(|| rings(shape));
             strokes.extend(drawn.into_iter().map(|(operation, path)| {
                 let path = path.moved(|corner| placed(p, corner));
-                Stroke { operation, part: p.shape, path }
+                Stroke { operation, part: p.shape.into(), path }
             }));
         }
         strokes.sort_by_key(|stroke| stroke.operation);
@@ -255,7 +255,7 @@ pub fn free_maps(
             let edges = std::iter::once(outline).chain(holes);
             sheet.strokes.extend(edges.map(|ring| Stroke {
                 operation: Operation::CutOuter,
-                part,
+                part: part.into(),
                 path: Path::Closed(Contour::polygon(ring.iter().copied())),
             }));
         }

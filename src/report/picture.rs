@@ -2,6 +2,7 @@
 
 use crate::fabrication::Fabrication;
 use crate::geometry::Point2;
+use crate::ids::PartId;
 use crate::picture::Camera;
 use crate::report::fins;
 use crate::structure::Structure;
@@ -13,7 +14,7 @@ pub(super) const FROM: [f64; 2] = [-1.1, 0.6];
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Panel {
     /// Index of its part.
-    pub part: usize,
+    pub part: PartId,
     /// Its corners: x to the right, y up.
     pub corners: [Point2; 4],
 }
@@ -32,7 +33,7 @@ impl Picture {
     pub(super) fn new(job: &Fabrication, structure: &Structure, width: f64) -> Self {
         let camera = Camera::level(FROM);
         let mut panels: Vec<(f64, Panel)> = Vec::new();
-        for (part, made) in job.parts.iter().enumerate() {
+        for (part, made) in job.parts_with_ids() {
             let fins =
                 fins::of_part(made).into_iter().map(|fin| structure.corners(fin.ends()));
             for corners in fins.chain(fins::plates(structure, made)) {

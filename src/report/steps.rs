@@ -1,7 +1,7 @@
 //! The steps of assembly in words.
 
 use crate::fabrication::Fabrication;
-use crate::ids::NodeId;
+use crate::ids::{NodeId, PartId};
 use crate::parts::{Body, ConnectorBody, Opening, insertion};
 use crate::template::Template;
 use std::collections::BTreeSet;
@@ -9,8 +9,8 @@ use std::collections::BTreeSet;
 /// One part of a strip that goes in, or a connector with the fins that are new at it.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Step {
-    /// Indices of the parts that go in.
-    pub parts: Vec<usize>,
+    /// The parts that go in.
+    pub parts: Vec<PartId>,
     /// Nodes where it goes onto parts that stand, in order along it.
     pub onto: Vec<(NodeId, String)>,
     /// What to do.
@@ -25,16 +25,16 @@ const ALL_SHOWN: usize = 100_000;
 
 /// The parts that stand before a step, as far as its picture shows them: those it goes
 /// onto, and where that is not too much all others.
-pub(super) fn standing(job: &Fabrication, steps: &[Step], k: usize) -> Vec<usize> {
+pub(super) fn standing(job: &Fabrication, steps: &[Step], k: usize) -> Vec<PartId> {
     let fins = job.structure.as_ref().map_or(0, |structure| structure.fins().len());
     let all = fins * steps.len() / 2 <= ALL_SHOWN;
     let onto =
-        |part: &usize| steps[k].onto.iter().any(|(_, id)| *id == job.parts[*part].id);
+        |part: &PartId| steps[k].onto.iter().any(|(_, id)| *id == job.parts[*part].id);
     let before = steps[..k].iter().flat_map(|step| step.parts.iter().copied());
     before.filter(|part| all || onto(part)).collect()
 }
 
-fn step(job: &Fabrication, part: usize, template: &Template) -> Option<Step> {
+fn step(job: &Fabrication, part: PartId, template: &Template) -> Option<Step> {
     let Body::Strip(body) = &job.parts[part].body else { return None };
     let onto = body.slits.iter().filter(|(slit, _)| slit.from == Opening::Bottom);
     let onto: Vec<(NodeId, String)> =
@@ -66,7 +66,7 @@ fn step(job: &Fabrication, part: usize, template: &Template) -> Option<Step> {
 /// plates; the fins that came since the step before go in with it.
 pub(super) fn steps(job: &Fabrication, template: &Template) -> Vec<Step> {
     let mut steps = Vec::new();
-    let mut new: Vec<usize> = Vec::new();
+    let mut new: Vec<PartId> = Vec::new();
     let strips = job.has(|body| matches!(body, Body::Strip(_)));
     let (mut laid, mut below) = (BTreeSet::new(), Vec::new());
     for (k, &crate::parts::Step { part, copies }) in job.steps.iter().enumerate() {
@@ -107,9 +107,9 @@ pub(super) fn steps(job: &Fabrication, template: &Template) -> Vec<Step> {
 /// A connector with the fins that are new at it.
 fn connected(
     job: &Fabrication,
-    part: usize,
+    part: PartId,
     (body, words): (&ConnectorBody, Option<String>),
-    new: Vec<usize>,
+    new: Vec<PartId>,
 ) -> Step {
     let fins: Vec<String> = new.iter().map(|&fin| job.parts[fin].id.clone()).collect();
     let stand = body.fins.iter().filter(|id| !fins.contains(id));

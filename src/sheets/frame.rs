@@ -39,12 +39,12 @@ impl Frame {
         let bar = bar(Point2::new(stock.width - stock.margin - BAR, base), cap);
         paths.extend(bar);
         let label = format!("{BAR} mm");
-        let label_width = width(&label, cap).unwrap_or(0.0);
+        let label_width = width(&label, cap).expect("the font has these");
         let label_at = stock.width - stock.margin - BAR - label_width - cap;
         paths.extend(written(&label, cap, Point2::new(label_at, base)));
         let text = self.text(stock, index, count);
         let free = label_at - stock.margin - cap;
-        let long = width(&text, cap).unwrap_or(f64::INFINITY);
+        let long = width(&text, cap).expect("the text is legible");
         let cap = if long > free { cap * free / long } else { cap };
         if cap >= 0.5 {
             paths.extend(written(&text, cap, Point2::new(stock.margin, base)));
@@ -69,8 +69,7 @@ fn bar(at: Point2, height: f64) -> Vec<Path> {
 }
 
 fn written(text: &str, cap: f64, at: Point2) -> Vec<Path> {
-    let strokes =
-        letter(text, cap).map(|lettering| lettering.strokes).unwrap_or_default();
+    let strokes = letter(text, cap).expect("the text is legible").strokes;
     let moved = |stroke: Vec<Point2>| stroke.iter().map(|p| at + p.coords).collect();
     strokes.into_iter().map(|stroke| Path::Open(moved(stroke))).collect()
 }

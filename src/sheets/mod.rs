@@ -12,6 +12,7 @@ pub use kerf::Kerf;
 pub use sheet::{Operation, Path, Sheet, Stroke};
 
 use crate::geometry::{Contour, Point2, Vector2, trig};
+use crate::ids::PartId;
 use crate::nest::{Layout, NestedSheet, Placement, Stock};
 use crate::parts::{MarkKind, Part};
 
@@ -56,7 +57,8 @@ impl Laying<'_> {
 
     fn strokes(&self, placement: &Placement) -> Vec<Stroke> {
         let part = &self.parts[placement.shape];
-        let stroke = |operation, path| Stroke { operation, part: placement.shape, path };
+        let id = PartId::new(placement.shape);
+        let stroke = |operation, path| Stroke { operation, part: id, path };
         let cut = |operation, contour: &Contour| {
             let contour = self.kerf.compensated(contour);
             stroke(operation, Path::Closed(contour.moved(|p| placed(placement, p))))

@@ -1,6 +1,7 @@
 //! What the laser does on one sheet, independent of any file format.
 
 use crate::geometry::{Contour, Point2};
+use crate::ids::PartId;
 
 /// What the laser does along a stroke; the order of the variants is the order of work.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -55,8 +56,8 @@ impl Path {
 pub struct Stroke {
     /// What the laser does.
     pub operation: Operation,
-    /// The part that the path belongs to, counted as the parts were given.
-    pub part: usize,
+    /// The part that the path belongs to.
+    pub part: PartId,
     /// Where it goes.
     pub path: Path,
 }

@@ -281,7 +281,8 @@ fn steps_name_every_part_once() {
         let job = made("three", joint, &material("pmma-cast-3"));
         let mut copies: BTreeMap<usize, usize> = BTreeMap::new();
         for step in &job.steps {
-            *copies.entry(step.part).or_default() += step.copies[1] + 1 - step.copies[0];
+            *copies.entry(step.part.index()).or_default() +=
+                step.copies[1] + 1 - step.copies[0];
         }
         let all = job.parts.iter().map(|part| part.quantity).enumerate();
         assert_eq!(copies, all.collect());

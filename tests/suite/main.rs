@@ -24,6 +24,7 @@ mod replacement;
 mod report;
 mod spoilt;
 mod structures;
+mod threads;
 mod transcripts;
 mod variations;
 mod vendor;

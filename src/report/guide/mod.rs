@@ -4,6 +4,7 @@ mod page;
 
 use crate::fabrication::Fabrication;
 use crate::geometry::{Point2, Vector2};
+use crate::ids::PartId;
 use crate::parts::Body;
 use crate::report::fins;
 use crate::report::manifest::Provenance;
@@ -73,7 +74,7 @@ fn corner(place: usize) -> Point2 {
 struct Figure<'a> {
     job: &'a Fabrication,
     picture: &'a Picture,
-    standing: &'a [usize],
+    standing: &'a [PartId],
 }
 
 impl Figure<'_> {
@@ -206,11 +207,11 @@ fn whole(job: &Fabrication, page: &mut GuidePage) {
 fn list(job: &Fabrication, steps: &[Step]) -> Vec<GuidePage> {
     const COLUMNS: [f64; 5] = [0.0, 20.0, 50.0, 80.0, 105.0];
     let sheets = fins::sheets(job);
-    let rows = job.parts.iter().enumerate().map(|(index, part)| {
+    let rows = job.parts_with_ids().map(|(id, part)| {
         let [length, height] = part.extent();
         let sheet =
-            sheets.get(&index).map_or(String::new(), |sheet| (sheet + 1).to_string());
-        let step = steps.iter().position(|step| step.parts.contains(&index));
+            sheets.get(&id).map_or(String::new(), |sheet| (sheet + 1).to_string());
+        let step = steps.iter().position(|step| step.parts.contains(&id));
         let step = step.map_or(String::new(), |step| (step + 1).to_string());
         [part.id.clone(), format!("{length:.1}"), format!("{height:.1}"), sheet, step]
     });

@@ -1,6 +1,7 @@
 //! The steps of assembly with a picture each.
 
 use crate::fabrication::Fabrication;
+use crate::ids::PartId;
 use crate::report::page::html;
 use crate::report::picture::Picture;
 use crate::report::steps::{Step, standing};
@@ -43,12 +44,12 @@ fn figure(
     job: &Fabrication,
     picture: &Picture,
     step: &Step,
-    (k, shown): (usize, &[usize]),
+    (k, shown): (usize, &[PartId]),
 ) -> String {
     let [width, height] = picture.size;
     let ids = step.parts.iter().map(|&part| job.parts[part].id.as_str());
     let ids: Vec<&str> = ids.collect();
-    let used = |part: &usize| format!("<use href=\"#p{part}\"/>");
+    let used = |part: &PartId| format!("<use href=\"#p{part}\"/>");
     let onto =
         step.onto.iter().map(|(node, part)| format!("{} at {node}", html::part(part)));
     let onto: Vec<String> = onto.collect();

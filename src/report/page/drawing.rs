@@ -2,6 +2,7 @@
 
 use crate::fabrication::Fabrication;
 use crate::geometry::Point2;
+use crate::ids::PartId;
 use crate::report::page::html;
 use crate::sheets::{Operation, Path, Sheet};
 use std::fmt::Write;
@@ -31,7 +32,7 @@ fn figure(job: &Fabrication, index: usize, sheet: &Sheet) -> String {
 /// One group per part: its marks, holes and outline.
 fn groups(job: &Fabrication, sheet: &Sheet) -> String {
     let mut text = String::new();
-    let mut parts: Vec<usize> = sheet.strokes.iter().map(|stroke| stroke.part).collect();
+    let mut parts: Vec<PartId> = sheet.strokes.iter().map(|stroke| stroke.part).collect();
     parts.sort_unstable();
     parts.dedup();
     for part in parts {

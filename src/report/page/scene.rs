@@ -2,7 +2,7 @@
 
 use crate::fabrication::Fabrication;
 use crate::geometry::{Point3, Vector3};
-use crate::ids::{FinId, NodeId};
+use crate::ids::{FinId, NodeId, PartId};
 use crate::joint::Joint;
 use crate::parts::{Body, bends};
 use crate::report::{fins, steps};
@@ -32,11 +32,10 @@ pub(super) fn scene(
         rows.fin(fin.ends(), *body, part.map(|part| (part, places[part])))
     });
     let sheets = fins::sheets(job);
-    let part =
-        |&index: &usize| json!({"id": job.parts[index].id, "sheet": sheets.get(&index)});
-    let plates = job.parts.iter().enumerate().flat_map(|(index, part)| {
+    let part = |&id: &PartId| json!({"id": job.parts[id].id, "sheet": sheets.get(&id)});
+    let plates = job.parts_with_ids().flat_map(|(id, part)| {
         let node = part.body.nodes().first().map_or(0, |node| node.index());
-        let place = places[index];
+        let place = places[id];
         fins::plates(structure, part).into_iter().map(move |corners| {
             let head = [json!(place), json!(node)];
             json!(
@@ -61,12 +60,12 @@ pub(super) fn scene(
 }
 
 /// The parts in the order of assembly; of a step its connector last.
-fn order(job: &Fabrication, template: &Template) -> Vec<usize> {
+fn order(job: &Fabrication, template: &Template) -> Vec<PartId> {
     let steps = steps::steps(job, template);
-    let mut order: Vec<usize> =
+    let mut order: Vec<PartId> =
         steps.into_iter().flat_map(|step| step.parts.into_iter().rev()).collect();
-    let known: BTreeSet<usize> = order.iter().copied().collect();
-    order.extend((0..job.parts.len()).filter(|part| !known.contains(part)));
+    let known: BTreeSet<PartId> = order.iter().copied().collect();
+    order.extend(job.parts_with_ids().map(|(id, _)| id).filter(|id| !known.contains(id)));
     order
 }
 
@@ -83,12 +82,12 @@ fn discrepancies(paper: &Paper) -> BTreeMap<(NodeId, usize), f64> {
 }
 
 /// Thickness over bend radius by part and node.
-fn tightness(job: &Fabrication, template: &Template) -> BTreeMap<(usize, NodeId), f64> {
+fn tightness(job: &Fabrication, template: &Template) -> BTreeMap<(PartId, NodeId), f64> {
     let mut all = BTreeMap::new();
-    for (index, part) in job.parts.iter().enumerate() {
+    for (id, part) in job.parts_with_ids() {
         let Body::Strip(body) = &part.body else { continue };
         let thickness = template.material.thickness_mm;
-        all.extend(bends(body).into_iter().map(|(n, r)| ((index, n), thickness / r)));
+        all.extend(bends(body).into_iter().map(|(n, r)| ((id, n), thickness / r)));
     }
     all
 }
@@ -110,7 +109,7 @@ struct Rows<'a> {
     paper: Option<&'a Paper>,
     /// Largest discrepancy by node and body.
     gaps: Option<BTreeMap<(NodeId, usize), f64>>,
-    bends: BTreeMap<(usize, NodeId), f64>,
+    bends: BTreeMap<(PartId, NodeId), f64>,
 }
 
 impl Rows<'_> {
@@ -120,7 +119,7 @@ impl Rows<'_> {
         &self,
         [i, j]: [NodeId; 2],
         body: Option<usize>,
-        part: Option<(usize, usize)>,
+        part: Option<(PartId, usize)>,
     ) -> Value {
         let (off, diameter) = planarity(&self.structure.corners([i, j]));
         let bend = |node| {

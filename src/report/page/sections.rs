@@ -3,9 +3,10 @@
 use crate::diagnostic::{Finding, Severity};
 use crate::fabrication::Fabrication;
 use crate::geometry::Contour;
+use crate::ids::PartId;
 use crate::joint::Joint;
 use crate::manifest::Worst;
-use crate::parts::{Body, Opening};
+use crate::parts::{Body, Opening, Part};
 use crate::report::connectors::hardware;
 use crate::report::fins;
 use crate::report::page::Page;
@@ -153,7 +154,7 @@ pub(super) fn order(page: &Page) -> String {
 pub(super) fn parts(page: &Page) -> String {
     let job = page.job;
     let sheets = fins::sheets(job);
-    let row = |(index, part): (usize, &crate::parts::Part)| {
+    let row = |(id, part): (PartId, &Part)| {
         let cut: f64 = part.region.contours().map(Contour::length).sum();
         let [length, height] = part.extent();
         let nodes = part.body.nodes().iter().map(ToString::to_string).collect::<Vec<_>>();
@@ -162,11 +163,11 @@ pub(super) fn parts(page: &Page) -> String {
             format!("{length:.1}"),
             format!("{height:.1}"),
             format!("{cut:.0}"),
-            sheets.get(&index).map_or(String::new(), |sheet| (sheet + 1).to_string()),
+            sheets.get(&id).map_or(String::new(), |sheet| (sheet + 1).to_string()),
             nodes.join(" "),
         ]
     };
-    let rows: Vec<Vec<String>> = job.parts.iter().enumerate().map(row).collect();
+    let rows: Vec<Vec<String>> = job.parts_with_ids().map(row).collect();
     let heads = ["part", "length mm", "height mm", "cut mm", "sheet", "nodes in order"];
     let caption = match job.has(|body| matches!(body, Body::Fin(_))) {
         true => "Fins, then connectors by their nodes",
