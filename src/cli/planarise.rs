@@ -107,8 +107,7 @@ fn write(
         None => {}
     }
     if let Some(path) = &args.picture {
-        let fins = result.draft.fins.clone();
-        let before = crate::structure::Draft { fins, ..given.clone() };
+        let before = given.clone().with_fins(&result.draft.fin_ids());
         match picture(&before, &result.draft) {
             Ok(bytes) => to_disk(path, &bytes)?,
             Err(PictureError) => {

@@ -6,6 +6,7 @@
 
 use crate::design::attempt::{Attempt, Meshed, foot, sized};
 use crate::design::directions::Singular;
+use crate::design::families::families;
 use crate::design::figures::{DesignFigures, Judged};
 use crate::design::finding::ChainFinding;
 use crate::design::planarise::{self, PlanariseError, Planarised, planarise};
@@ -14,7 +15,8 @@ use crate::design::surface::{Measures, Surface};
 use crate::design::wishes::{Align, SingularWish, Size, Wishes};
 use crate::diagnostic::{Finding, passes};
 use crate::geometry::{Point3, Vector3};
-use crate::structure::Draft;
+use crate::ids::{FinId, NodeId};
+use crate::structure::{Draft, Provenance};
 use crate::tolerance::DESIGNED_PLANAR;
 use crate::watch::{Stopped, Watch};
 
@@ -112,6 +114,18 @@ impl Search<'_> {
         }
     }
 
+    /// Where the structure comes from, for its record.
+    fn provenance(&self, cell: f64, aligned: bool) -> Provenance {
+        let align = if aligned { "boundary" } else { "none" };
+        let record = [
+            ("surface", self.name.into()),
+            ("cell", cell.into()),
+            ("align", align.into()),
+            ("even", self.wishes.even.into()),
+        ];
+        record.into_iter().map(|(name, value)| (name.to_owned(), value)).collect()
+    }
+
     /// Singular vertices nearest to the given places.
     fn given(&self, places: &[(Point3, usize)]) -> Result<Vec<Singular>, ChainFinding> {
         let mut singular: Vec<Singular> = Vec::new();
@@ -147,7 +161,7 @@ impl Search<'_> {
         }
         match sized(self.surface, &self.measures, attempt, self.wishes.size) {
             Ok(meshed) => {
-                let designed = self.planar(meshed, watch)?;
+                let designed = self.planar(meshed, attempt.align, watch)?;
                 let sound = passes(&designed.findings) && designed.figures.reversed == 0;
                 Ok(if sound {
                     Outcome::Sound(Box::new(designed))
@@ -231,6 +245,7 @@ impl Search<'_> {
     fn planar(
         &self,
         meshed: Meshed,
+        aligned: bool,
         watch: &mut dyn Watch,
     ) -> Result<Designed, PlanariseError> {
         let (surface, wishes) = (self.surface, self.wishes);
@@ -255,7 +270,8 @@ impl Search<'_> {
             options.target = DESIGNED_PLANAR;
             planarised = planarise(draft.clone(), &options, watch)?;
         }
-        let Planarised { draft: result, figures: planarised, findings, .. } = planarised;
+        let Planarised { draft: mut result, figures: planarised, findings, .. } =
+            planarised;
         let judged = Judged {
             surface,
             axes: &axes,
@@ -265,6 +281,13 @@ impl Search<'_> {
             wanted: cell,
         };
         let figures = judged.figures(&planarised);
+        let families = families(&result.faces);
+        let family = |fin: FinId| {
+            let [a, b] = fin.ends().map(NodeId::index);
+            families.get(&[a.min(b), a.max(b)]).copied().flatten()
+        };
+        result.families = Some(result.fin_ids().into_iter().map(family).collect());
+        result.design = Some(self.provenance(cell, aligned));
         Ok(Designed { draft: result, before: draft, figures, findings, axes, directions })
     }
 }

@@ -101,7 +101,8 @@ fn indices(draft: &Draft) -> Vec<StructureFinding> {
 
 /// Faces, edges and fins as a mesh; indices are in range.
 pub(super) fn mesh(draft: &Draft, mesh: &Mesh) -> Vec<StructureFinding> {
-    [faces(draft), surface::faults(mesh), fins(draft), pieces(draft)].concat()
+    [faces(draft), surface::faults(mesh), fins(draft), families(draft), pieces(draft)]
+        .concat()
 }
 
 fn faces(draft: &Draft) -> Vec<StructureFinding> {
@@ -143,6 +144,20 @@ fn fins(draft: &Draft) -> Vec<StructureFinding> {
         }
     }
     findings
+}
+
+fn families(draft: &Draft) -> Vec<StructureFinding> {
+    let Some(families) = &draft.families else { return Vec::new() };
+    let fins = draft.fin_ids();
+    if families.len() != fins.len() {
+        let (count, fins) = (families.len(), fins.len());
+        return vec![StructureFinding::FamilyCount { count, fins }];
+    }
+    let bad = |(fin, family): (FinId, &Option<u8>)| {
+        let family = family.filter(|family| ![1, 2].contains(family))?;
+        Some(StructureFinding::BadFamily { fin, family })
+    };
+    fins.into_iter().zip(families).filter_map(bad).collect()
 }
 
 /// Connected pieces and loose nodes.

@@ -2,6 +2,8 @@
 
 use crate::geometry::{Point3, Vector3};
 use crate::ids::{FinId, NodeId};
+use serde_json::Value;
+use std::collections::BTreeMap;
 
 /// What the readers make and [`Structure::new`](super::Structure::new) judges.
 /// Lengths are already millimetres at model scale.
@@ -25,7 +27,17 @@ pub struct Draft {
     pub strips: Option<Vec<Vec<usize>>>,
     /// Nodes held by the ground; `None`: those on the boundary.
     pub fixed: Option<Vec<usize>>,
+    /// Family of the base mesh, 1 or 2, of each fin, in their order, where it can be told.
+    pub families: Option<Vec<Option<u8>>>,
+    /// Where it comes from, for the record.
+    pub design: Option<Provenance>,
 }
+
+/// Where a structure comes from: what its design was asked for, by name.
+pub type Provenance = serde_json::Map<String, Value>;
+
+/// What under [`Draft::design`] is a length, or a list of lengths.
+const LENGTHS: [&str; 2] = ["cell", "depth"];
 
 impl Draft {
     /// Sets one depth for all nodes.
@@ -45,6 +57,23 @@ impl Draft {
         for depth in self.below.iter_mut().chain(&mut self.above) {
             *depth *= factor;
         }
+        for (_, length) in self.design.iter_mut().flatten().filter(is_length) {
+            scale(length, factor);
+        }
+        self
+    }
+
+    /// The same with other fins, each still of its family.
+    #[must_use]
+    pub fn with_fins(mut self, fins: &[FinId]) -> Self {
+        let of: BTreeMap<FinId, Option<u8>> = self
+            .fin_ids()
+            .into_iter()
+            .zip(self.families.iter().flatten().copied())
+            .collect();
+        let family = |fin: &FinId| of.get(fin).copied().flatten();
+        self.families = self.families.map(|_| fins.iter().map(family).collect());
+        self.fins = Some(fins.iter().map(|fin| fin.ends().map(NodeId::index)).collect());
         self
     }
 
@@ -62,6 +91,21 @@ impl Draft {
             .map(|(i, j)| fin(i, j))
             .filter(|&fin| seen.insert(fin))
             .collect()
+    }
+}
+
+fn is_length((name, _): &(&String, &mut Value)) -> bool {
+    LENGTHS.contains(&name.as_str())
+}
+
+fn scale(length: &mut Value, factor: f64) {
+    match length {
+        Value::Array(list) => list.iter_mut().for_each(|length| scale(length, factor)),
+        other => {
+            if let Some(number) = other.as_f64() {
+                *other = (number * factor).into();
+            }
+        }
     }
 }
 

@@ -40,6 +40,24 @@ pub enum StructureFinding {
     )]
     CountMismatch { what: &'static str, count: usize, nodes: usize },
 
+    #[error("{count} families are given for {fins} fins")]
+    #[diagnostic(
+        code(structure::family_count),
+        help(
+            "give 1, 2 or null for each fin, in the order of `fins`, or leave them out"
+        )
+    )]
+    FamilyCount { count: usize, fins: usize },
+
+    #[error(
+        "fin {fin} is given the family {family}, but there are families 1 and 2 alone"
+    )]
+    #[diagnostic(
+        code(structure::bad_family),
+        help("give 1, 2 or null for each fin, in the order of `fins`")
+    )]
+    BadFamily { fin: FinId, family: u8 },
+
     #[error("{what}{} names node {node}, but nodes are counted from 0 and there are {nodes}", ordinal(*index))]
     #[diagnostic(
         code(structure::index_out_of_range),
@@ -261,6 +279,7 @@ impl Located for StructureFinding {
         match *self {
             Self::Empty { .. }
             | Self::CountMismatch { .. }
+            | Self::FamilyCount { .. }
             | Self::FinsCrossOften { .. } => Place::default(),
             Self::IndexOutOfRange { what: "face", index: Some(index), .. } => {
                 Place::faces([FaceId::new(index)])
@@ -286,6 +305,7 @@ impl Located for StructureFinding {
             Self::NonManifoldEdge { fin, .. }
             | Self::ShortFin { fin, .. }
             | Self::DuplicateFin { fin }
+            | Self::BadFamily { fin, .. }
             | Self::FinNotPlanar { fin, .. }
             | Self::FinWarped { fin, .. }
             | Self::AxesCrossInFin { fin, .. }

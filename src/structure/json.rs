@@ -2,7 +2,7 @@
 
 use crate::geometry::{Point3, Vector3};
 use crate::ids::NodeId;
-use crate::structure::{AxisRule, Draft, ReadError, ReadNote, Structure};
+use crate::structure::{AxisRule, Draft, Provenance, ReadError, ReadNote, Structure};
 use crate::units::Unit;
 use serde::de::{Deserializer, SeqAccess, Visitor};
 use serde::{Deserialize, Serialize};
@@ -10,7 +10,7 @@ use serde_json::Value;
 use std::fmt;
 
 /// The keys of a structure (docs/structure.md).
-const KEYS: [&str; 11] = [
+const KEYS: [&str; 13] = [
     "format",
     "version",
     "name",
@@ -22,6 +22,8 @@ const KEYS: [&str; 11] = [
     "fins",
     "strips",
     "fixed",
+    "families",
+    "design",
 ];
 
 #[derive(Deserialize, Serialize)]
@@ -42,6 +44,10 @@ struct File {
     strips: Option<Vec<Vec<usize>>>,
     #[serde(default, skip_serializing_if = "Option::is_none")]
     fixed: Option<Vec<usize>>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    families: Option<Vec<Option<u8>>>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    design: Option<Provenance>,
 }
 
 #[derive(Deserialize, Serialize)]
@@ -170,6 +176,8 @@ pub fn read_json(
         fins: file.fins.map(|fins| fins.into_iter().map(|row| row.0).collect()),
         strips: file.strips,
         fixed: file.fixed,
+        families: file.families,
+        design: file.design,
     };
     if let Some(axes) = axes.axes(&draft.positions, &draft.faces) {
         draft.axes = axes;
@@ -207,12 +215,13 @@ fn unknown_keys(value: &Value) -> Vec<ReadNote> {
 
 /// serde's message in words for people who do not know Rust.
 fn bad(error: &serde_json::Error, notes: &[ReadNote]) -> ReadError {
-    const PLAIN: [(&str, &str); 10] = [
+    const PLAIN: [(&str, &str); 11] = [
         ("a sequence", "a list [...]"),
         ("sequence", "a list"),
         ("a map", "an object {...}"),
         ("expected map", "expected an object {...}"),
         ("expected usize", "expected a whole number from 0"),
+        ("expected u8", "expected 1, 2 or null"),
         ("expected f64", "expected a number"),
         ("struct File", "an object {...}"),
         ("struct Depth", "{\"below\": ..., \"above\": ...}"),
@@ -258,6 +267,8 @@ pub fn write_json(structure: &Structure) -> String {
         fins: Some(fins.collect()),
         strips: Some(strips.collect()),
         fixed: Some(indices(structure.fixed())),
+        families: structure.families().map(<[_]>::to_vec),
+        design: structure.design().cloned(),
     };
     rows(&file)
 }

@@ -22,7 +22,7 @@ mod surface;
 
 pub use check::planarity;
 pub use crossing::FinTree;
-pub use draft::{Draft, area_vector};
+pub use draft::{Draft, Provenance, area_vector};
 pub use finding::{FaceFault, StructureFinding};
 pub use json::{read_json, write_json};
 pub use node::{Arm, Node};
@@ -52,6 +52,8 @@ pub struct Structure {
     fins: Vec<FinId>,
     strips: Vec<Strip>,
     fixed: Vec<NodeId>,
+    families: Option<Vec<Option<u8>>>,
+    design: Option<Provenance>,
 }
 
 /// A draft that is no structure.
@@ -106,11 +108,17 @@ impl Structure {
         };
         let (strips, findings) = match draft.strips {
             Some(chains) => strips::given(&chains, &fins),
-            None => (strips::traced(&nodes, &boundary, tolerance), Vec::new()),
+            None => {
+                let families = draft.families.iter().flatten().copied();
+                let families = fins.iter().copied().zip(families).collect();
+                (strips::traced(&nodes, &boundary, &families, tolerance), Vec::new())
+            }
         };
         let (strips, split) = meeting::without_self_meetings(strips, &nodes);
         let findings = findings.into_iter().chain(split).collect();
-        (Self { name: draft.name, nodes, mesh, fins, strips, fixed }, findings)
+        let Draft { name, families, design, .. } = draft;
+        let built = Self { name, nodes, mesh, fins, strips, fixed, families, design };
+        (built, findings)
     }
 
     /// Name of the job.
@@ -141,6 +149,17 @@ impl Structure {
     /// Nodes held by the ground.
     pub fn fixed(&self) -> &[NodeId] {
         &self.fixed
+    }
+
+    /// Family of the base mesh, 1 or 2, of each fin, where it can be told; `None` if nobody
+    /// said so of any.
+    pub fn families(&self) -> Option<&[Option<u8>]> {
+        self.families.as_deref()
+    }
+
+    /// Where it comes from, if that was said.
+    pub const fn design(&self) -> Option<&Provenance> {
+        self.design.as_ref()
     }
 
     /// The corners of the fin from `i` to `j`: bottom of `i`, bottom of `j`, top of `j`,

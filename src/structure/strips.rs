@@ -3,7 +3,7 @@
 //! At a node inside the mesh with four fins, opposite fins continue each other. At any
 //! other node the two fins that continue each other best (kink at most
 //! [`Tolerance::straight_kink`]) are paired, then a second pair that lies on both sides of
-//! the first; all other fins end there. Of pairs that are equally straight the longer goes
+//! the first; all other fins end there. Fins of two families never continue each other. Of pairs that are equally straight the longer goes
 //! first, then the one whose far ends have the smaller numbers.
 
 use crate::geometry::trig;
@@ -44,15 +44,22 @@ pub(super) fn fold(nodes: &[Node], [from, at, to]: [NodeId; 3]) -> f64 {
 pub(super) fn traced(
     nodes: &[Node],
     boundary: &[bool],
+    families: &BTreeMap<FinId, Option<u8>>,
     tolerance: &Tolerance,
 ) -> Vec<Strip> {
     let onward: Vec<BTreeMap<NodeId, NodeId>> = nodes
         .iter()
-        .zip(boundary)
-        .map(|(node, &boundary)| {
-            let length = |arm: &Arm| (nodes[arm.to].position - node.position).norm();
-            let lengths: Vec<f64> = node.arms.iter().map(length).collect();
-            continuations(node, &lengths, boundary, tolerance)
+        .enumerate()
+        .map(|(at, node)| {
+            let along = |arm: &Arm| Along {
+                length: (nodes[arm.to].position - node.position).norm(),
+                family: families
+                    .get(&FinId::between(at.into(), arm.to))
+                    .copied()
+                    .flatten(),
+            };
+            let fins: Vec<Along> = node.arms.iter().map(along).collect();
+            continuations(node, &fins, boundary[at], tolerance)
         })
         .collect();
     let mut used = BTreeSet::new();
@@ -76,11 +83,17 @@ pub(super) fn traced(
     strips
 }
 
+/// A fin of a node: how long it is, mm, and of which family, if that can be told.
+struct Along {
+    length: f64,
+    family: Option<u8>,
+}
+
 /// For each fin of a node that runs on: the other end of the fin it comes from, and the
 /// other end of the one it runs into.
 fn continuations(
     node: &Node,
-    lengths: &[f64],
+    fins: &[Along],
     boundary: bool,
     tolerance: &Tolerance,
 ) -> BTreeMap<NodeId, NodeId> {
@@ -88,7 +101,7 @@ fn continuations(
     let pairs = if arms.len() == 4 && !boundary {
         vec![(0, 2), (1, 3)]
     } else {
-        straightest_pairs(node, lengths, tolerance)
+        straightest_pairs(node, fins, tolerance)
     };
     let both =
         |(p, q): (usize, usize)| [(arms[p].to, arms[q].to), (arms[q].to, arms[p].to)];
@@ -99,13 +112,17 @@ fn continuations(
 /// sides of the first, as half-laps must.
 fn straightest_pairs(
     node: &Node,
-    lengths: &[f64],
+    fins: &[Along],
     tolerance: &Tolerance,
 ) -> Vec<(usize, usize)> {
     let count = node.arms.len();
     let candidates: Vec<Pair> = (0..count)
         .flat_map(|p| (p + 1..count).map(move |q| [p, q]))
-        .map(|arms| Pair::new(node, lengths, arms))
+        .filter(|arms| {
+            let [a, b] = arms.map(|arm| fins[arm].family);
+            a.is_none() || b.is_none() || a == b
+        })
+        .map(|arms| Pair::new(node, fins, arms))
         .filter(|pair| pair.bend <= tolerance.straight_kink + SAME_FOLD)
         .collect();
     let Some(first) = straightest(candidates.iter().collect()) else { return Vec::new() };
@@ -129,12 +146,12 @@ struct Pair {
 }
 
 impl Pair {
-    fn new(node: &Node, lengths: &[f64], arms: [usize; 2]) -> Self {
+    fn new(node: &Node, fins: &[Along], arms: [usize; 2]) -> Self {
         let [p, q] = arms.map(|arm| node.arms[arm]);
         Self {
             arms,
             bend: (PI - (q.angle - p.angle)).abs(),
-            length: arms.iter().map(|&arm| lengths[arm]).sum(),
+            length: arms.iter().map(|&arm| fins[arm].length).sum(),
             ends: FinId::between(p.to, q.to),
         }
     }

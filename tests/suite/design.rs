@@ -373,3 +373,97 @@ fn faults_of_a_surface_are_named_with_their_place() {
     let (_, findings) = clean(thin).unwrap();
     assert!(findings.iter().any(|f| f.code == "surface::faces_without_area"));
 }
+
+fn finwright(place: &std::path::Path, words: &[&str]) -> std::process::Output {
+    let binary = env!("CARGO_BIN_EXE_finwright");
+    Command::new(binary).current_dir(place).args(words).output().unwrap()
+}
+
+fn json(path: &std::path::Path) -> serde_json::Value {
+    serde_json::from_slice(&std::fs::read(path).unwrap()).unwrap()
+}
+
+#[test]
+fn families_and_design_are_kept_by_planarise_and_make() {
+    let place = tempfile::tempdir().unwrap();
+    let here = place.path();
+    let run = |words: &str| {
+        let output = finwright(here, &words.split(' ').collect::<Vec<_>>());
+        assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    };
+    run("design hill --cell 120 --align boundary --boundary-fins -o a.json -q");
+    let given = json(&here.join("a.json"));
+    let families = given["families"].as_array().unwrap();
+    assert_eq!(families.len(), given["fins"].as_array().unwrap().len());
+    assert!([1, 2].iter().all(|k| families.iter().filter(|f| *f == k).count() > 50));
+    assert_eq!(given["design"]["surface"], "hill");
+    // Strips follow families: every fin of a strip is of one.
+    let fins: Vec<serde_json::Value> = given["fins"].as_array().unwrap().clone();
+    let family = |a: &serde_json::Value, b: &serde_json::Value| {
+        let is = |f: &serde_json::Value| {
+            (&f[0] == a && &f[1] == b) || (&f[0] == b && &f[1] == a)
+        };
+        families[fins.iter().position(is).unwrap()].clone()
+    };
+    for strip in given["strips"].as_array().unwrap() {
+        let nodes = strip.as_array().unwrap();
+        let all: Vec<_> =
+            nodes.windows(2).map(|step| family(&step[0], &step[1])).collect();
+        assert!(all.iter().all(|f| *f == all[0]), "{strip}");
+    }
+    run("planarise a.json -o b.json -q");
+    run("make b.json --scale 1:2 --effort quick --accept-flexible test -o job -q");
+    let made = json(&here.join("job/structure.json"));
+    assert_eq!(made["families"], given["families"]);
+    let cells = [&given, &made].map(|file| file["design"]["cell"].as_f64().unwrap());
+    assert!((cells[0] - 120.0).abs() < 1e-9 && (cells[1] - 60.0).abs() < 1e-9);
+    let text = std::fs::read_to_string(here.join("a.json")).unwrap();
+    let wrong = text.replacen("\"families\": [1,", "\"families\": [3,", 1);
+    let wrong = wrong.replacen("\"families\": [2,", "\"families\": [3,", 1);
+    std::fs::write(here.join("wrong.json"), wrong).unwrap();
+    let refused = finwright(here, &["check", "wrong.json"]);
+    let told = String::from_utf8_lossy(&refused.stderr).into_owned();
+    assert!(
+        !refused.status.success() && told.contains("structure::bad_family"),
+        "{told}"
+    );
+}
+
+/// Designs on an embedded surface, makes the job and reads it back.
+fn made_and_verified(surface: &[&str], make: &[&str]) -> serde_json::Value {
+    let place = tempfile::tempdir().unwrap();
+    let design = [&["design"], surface, &["-o", "s.json", "-q", "--json"]].concat();
+    let designed = finwright(place.path(), &design);
+    assert!(designed.status.success());
+    let make =
+        [&["make", "s.json", "-o", "job", "-q", "--effort", "quick"], make].concat();
+    for words in [&make[..], &["verify", "job", "-q"]] {
+        let output = finwright(place.path(), words);
+        assert!(
+            output.status.success(),
+            "{words:?}: {}",
+            String::from_utf8_lossy(&output.stderr)
+        );
+    }
+    serde_json::from_slice(&designed.stdout).unwrap()
+}
+
+#[test]
+fn every_embedded_surface_goes_through_make_and_verify() {
+    for name in ["hill", "court", "dome-surface"] {
+        made_and_verified(&[name, "--cell", "150"], &[]);
+    }
+}
+
+#[test]
+fn nodes_of_three_and_five_fins_are_made_in_hubs() {
+    let surface = ["hill", "--cell", "80", "--align", "boundary"];
+    let report = made_and_verified(&surface, &["--joint", "hub"]);
+    let valences: Vec<u64> = report["singular"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .map(|n| n["valence"].as_u64().unwrap())
+        .collect();
+    assert!(valences.contains(&3) && valences.contains(&5), "{valences:?}");
+}

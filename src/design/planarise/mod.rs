@@ -123,10 +123,10 @@ fn planarise_sound(
     let figures = judged.figures(before);
     let findings =
         judged.findings(&fins, options).into_iter().map(Finding::from).collect();
-    let draft = Draft::from(sound);
-    let listed = fins.iter().map(|fin| fin.ends().map(NodeId::index)).collect();
-    let axes = if history.is_empty() { draft.axes } else { result.axes };
-    let draft = Draft { positions: result.positions, axes, fins: Some(listed), ..draft };
+    let mut draft = Draft::from(sound);
+    let axes =
+        if history.is_empty() { std::mem::take(&mut draft.axes) } else { result.axes };
+    let draft = Draft { positions: result.positions, axes, ..draft }.with_fins(&fins);
     Ok(Planarised { draft, figures, history, findings })
 }
 
