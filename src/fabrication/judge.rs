@@ -86,6 +86,19 @@ const CURABLE: usize = 2000;
 ///
 /// # Errors
 /// [`Stopped`] if the watch stopped the work.
+/// ```
+/// use finwright::design::examples;
+/// use finwright::fabrication::{criteria, plan, verdict};
+/// use finwright::{settings::Settings, structure::Structure, template, tolerance::Tolerance};
+///
+/// let draft = (examples::named("three").unwrap().draft)();
+/// let (structure, _) = Structure::new(draft, &Tolerance::default()).unwrap();
+/// let source = template::embedded("pmma-cast-3").unwrap();
+/// let settings = Settings::new(template::read(source, "pmma-cast-3").unwrap());
+/// let plan = plan(&structure, &settings);
+/// let criteria = criteria(&structure, &settings.template).unwrap();
+/// assert!(verdict(&plan, &settings, &criteria, &mut ()).unwrap().passes());
+/// ```
 pub fn verdict(
     plan: &Plan,
     settings: &Settings,

@@ -48,6 +48,17 @@ pub struct Fabrication {
 ///
 /// # Errors
 /// [`Stopped`] if the watch stopped the work.
+/// ```
+/// use finwright::design::examples;
+/// use finwright::{fabrication::fabricate, settings::Settings, template};
+///
+/// let draft = (examples::named("three").unwrap().draft)();
+/// let source = template::embedded("pmma-cast-3").unwrap();
+/// let settings = Settings::new(template::read(source, "pmma-cast-3").unwrap());
+/// let fabrication = fabricate(draft, settings, &mut ()).unwrap();
+/// let sheets = fabrication.approved().expect("it is rigid and nothing is wrong");
+/// assert!(!finwright::export::dxf(&sheets.get()[0]).is_empty());
+/// ```
 pub fn fabricate(
     draft: Draft,
     settings: Settings,

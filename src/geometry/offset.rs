@@ -12,6 +12,13 @@ const MITRE_LIMIT: f64 = 5.0;
 /// Arcs must meet their neighbours without a corner, or the corner is only approximate.
 /// The result may cross itself where the contour is narrower than twice the distance; ask
 /// [`is_simple`](super::predicates::is_simple).
+/// ```
+/// use finwright::geometry::{Contour, Point2, offset::offset};
+///
+/// let square = [(0.0, 0.0), (10.0, 0.0), (10.0, 10.0), (0.0, 10.0)];
+/// let square = Contour::polygon(square.map(|(x, y)| Point2::new(x, y)));
+/// assert_eq!(offset(&square, 0.5).signed_area(), 121.0);
+/// ```
 pub fn offset(contour: &Contour, distance: f64) -> Contour {
     let contour = without_vanishing_arcs(contour, distance);
     let segments: Vec<Segment> = contour.segments().collect();

@@ -59,6 +59,11 @@ pub struct UnknownCharacter {
 /// # Errors
 ///
 /// If the font lacks a character; [`legible`] makes a text it can draw.
+/// ```
+/// let line = finwright::lettering::letter("S01", 4.0).unwrap();
+/// assert_eq!(line.height, 4.0);
+/// assert!(finwright::lettering::letter("\u{1F600}", 4.0).is_err());
+/// ```
 pub fn letter(text: &str, cap_height: f64) -> Result<Lettering, UnknownCharacter> {
     let unit = cap_height / f64::from(CAP_ROWS);
     let glyphs = glyphs(text)?;

@@ -142,6 +142,23 @@ pub struct PackedStrip {
 /// # Errors
 /// [`NestError`] names a shape that fits no sheet, what is left when the stock is used up,
 /// or that the watch stopped the search before there was a layout.
+/// ```
+/// use finwright::geometry::Point2;
+/// use finwright::nest::{Effort, Rotations, Shape, Stock, nest};
+///
+/// let square = [(0.0, 0.0), (50.0, 0.0), (50.0, 50.0), (0.0, 50.0)];
+/// let shape = |name: &str| Shape {
+///     name: name.to_owned(),
+///     outline: square.map(|(x, y)| Point2::new(x, y)).to_vec(),
+///     holes: Vec::new(),
+///     rotations: Rotations::Free,
+///     priority: 0,
+/// };
+/// let stock = Stock::new([120.0, 60.0], 2.0, 2.0);
+/// let effort = Effort { trials: 1, seed: 0 };
+/// let layout = nest(&[shape("a"), shape("b")], &[stock], &effort, &mut ()).unwrap();
+/// assert_eq!(layout.sheets.len(), 1);
+/// ```
 pub fn nest(
     shapes: &[Shape],
     stock: &[Stock],

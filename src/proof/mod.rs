@@ -134,6 +134,24 @@ pub struct ProofReport<'a> {
 /// # Errors
 /// [`ProofError`] if there is no manifest or no structure to prove against. Everything
 /// else that is wrong is a finding.
+/// ```
+/// use finwright::diagnostic::passes;
+/// use finwright::{design::examples, job, proof, settings::Settings, template};
+///
+/// let source = template::embedded("pmma-cast-3").unwrap();
+/// let specification = job::Specification {
+///     input: job::Input::embedded(examples::named("three").unwrap(), &job::InputOptions::default()),
+///     settings: Settings::new(template::read(source, "pmma-cast-3").unwrap()),
+///     planarise: false,
+///     apply_remedies: false,
+///     only: Vec::new(),
+/// };
+/// let job = job::make(specification, &mut ()).unwrap();
+/// let mut files: proof::JobFiles = job.files.into_iter().collect();
+/// assert!(passes(&proof::prove(&files).unwrap().findings));
+/// files.remove("sheets/sheet-01.dxf");
+/// assert!(!passes(&proof::prove(&files).unwrap().findings));
+/// ```
 pub fn prove(files: &JobFiles) -> Result<Proof, ProofError> {
     let manifest = read_manifest(files)?;
     let structure = read_structure(files, &manifest)?;

@@ -149,6 +149,17 @@ impl Reach {
 ///
 /// # Errors
 /// [`ReadError`] if the text is no structure of this format.
+/// ```
+/// use finwright::{structure::{AxisRule, Structure, read_json}, tolerance::Tolerance};
+///
+/// let text = r#"{"format": "finwright-structure", "version": 1, "name": "tile", "units": "mm",
+///     "positions": [[0,0,0], [90,0,0], [90,90,0], [0,90,0]],
+///     "axes": [[0,0,1], [0,0,1], [0,0,1], [0,0,1]],
+///     "faces": [[0,1,2,3]], "depth": {"below": 20, "above": 20}}"#;
+/// let (draft, _notes) = read_json(text, AxisRule::File).unwrap();
+/// let (structure, _findings) = Structure::new(draft, &Tolerance::default()).unwrap();
+/// assert_eq!((structure.nodes().len(), structure.fins().len()), (4, 4));
+/// ```
 pub fn read_json(
     text: &str,
     axes: AxisRule,

@@ -209,6 +209,14 @@ pub fn embedded(name: &str) -> Option<&'static str> {
 ///
 /// # Errors
 /// [`TemplateErrors`] with everything that is wrong with it.
+/// ```
+/// use finwright::template;
+///
+/// let source = template::embedded("pmma-cast-3").unwrap();
+/// assert_eq!(template::read(source, "pmma-cast-3").unwrap().material.thickness_mm, 3.0);
+/// let misspelt = source.replace("kerf_mm", "kerv_mm");
+/// assert!(template::read(&misspelt, "mine").is_err());
+/// ```
 pub fn read(source: &str, name: &str) -> Result<Template, TemplateErrors> {
     let wrong = |faults| TemplateErrors { name: name.to_owned(), faults };
     let table: toml::Table = source

@@ -83,6 +83,13 @@ impl From<DesignFinding> for PlanariseError {
 /// [`PlanariseError::Refused`] with all findings if the mesh is no oriented surface (flipped faces,
 /// one-sided, fans that meet in a point) or has faults of its own;
 /// [`PlanariseError::Stopped`] if the watch stopped the work.
+/// ```
+/// use finwright::design::{examples, planarise::{Options, planarise}};
+///
+/// let draft = (examples::named("sphere-patch").unwrap().draft)();
+/// let planar = planarise(draft, &Options::default(), &mut ()).unwrap();
+/// assert!(planar.findings.is_empty());
+/// ```
 pub fn planarise(
     draft: Draft,
     options: &Options,

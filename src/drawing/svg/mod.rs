@@ -23,6 +23,15 @@ use svgtypes::Transform;
 ///
 /// # Errors
 /// [`DrawingError`] if the bytes are no SVG.
+/// ```
+/// use finwright::drawing::{Reading, read_svg};
+///
+/// let svg = r#"<svg xmlns="http://www.w3.org/2000/svg" width="100mm" height="50mm" viewBox="0 0 100 50">
+///                <rect x="10" y="10" width="80" height="30" stroke="red"/>
+///              </svg>"#;
+/// let drawing = read_svg(svg.as_bytes(), &Reading::of(&[])).unwrap();
+/// assert_eq!(drawing.curves[0].contour().signed_area().abs(), 2400.0);
+/// ```
 pub fn read_svg(bytes: &[u8], reading: &Reading) -> Result<Drawing, DrawingError> {
     let text = String::from_utf8_lossy(bytes);
     let other = |message: String| DrawingError::Other { message };
