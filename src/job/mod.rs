@@ -22,7 +22,7 @@ use crate::gate::approve_loose;
 use crate::json::{self, UnwritableJson};
 use crate::manifest::Manifest;
 use crate::proof::{Proof, ProofFinding, Spot, prove};
-use crate::report::{self, Page, Provenance};
+use crate::report::{self, JobSource, Page};
 use crate::settings::Settings;
 use crate::structure::write_json;
 use crate::vendor;
@@ -239,9 +239,9 @@ fn source<'a>(
     fabrication: &'a Fabrication,
     origin: &'a Origin,
     template_sha256: &'a str,
-) -> Provenance<'a> {
+) -> JobSource<'a> {
     let settings = &fabrication.settings;
-    Provenance {
+    JobSource {
         input: &origin.name,
         input_sha256: &origin.sha256,
         template: &settings.template,

@@ -22,7 +22,7 @@ use std::collections::BTreeMap;
 
 /// Where a job came from.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Provenance<'a> {
+pub struct JobSource<'a> {
     /// Name of the input file, without its folder.
     pub input: &'a str,
     /// SHA-256 of the input, hexadecimal.
@@ -40,7 +40,7 @@ pub struct Provenance<'a> {
 }
 
 /// The manifest of a job.
-pub fn manifest(job: &Fabrication, source: &Provenance) -> Manifest {
+pub fn manifest(job: &Fabrication, source: &JobSource) -> Manifest {
     let template = source.template;
     let material = &template.material;
     let entry = |name: &str, sha256: &str| SourceEntry {

@@ -14,6 +14,6 @@ mod steps;
 pub use bill::bill;
 pub use guide::guide;
 pub use layout::{Lines, Nested, free_maps, layout_json, layout_sheets};
-pub use manifest::{Provenance, manifest};
+pub use manifest::{JobSource, manifest};
 pub use node::node_picture;
 pub use page::{Page, page};

@@ -5,7 +5,7 @@ use finwright::design::examples;
 use finwright::fabrication::{Fabrication, fabricate};
 use finwright::joint::Joint;
 use finwright::nest::Effort;
-use finwright::report::{self, Page, Provenance};
+use finwright::report::{self, JobSource, Page};
 use finwright::settings::Settings;
 use finwright::structure::Draft;
 use finwright::template::{self, Template};
@@ -22,8 +22,8 @@ fn made(draft: Draft, joint: Joint, template: &Template) -> Fabrication {
     fabricate(draft, settings, &mut ()).unwrap()
 }
 
-fn source(template: &Template, joint: Joint) -> Provenance<'_> {
-    Provenance {
+fn source(template: &Template, joint: Joint) -> JobSource<'_> {
+    JobSource {
         input: "example",
         input_sha256: "",
         template,
@@ -34,7 +34,7 @@ fn source(template: &Template, joint: Joint) -> Provenance<'_> {
     }
 }
 
-fn page_of(job: &Fabrication, source: &Provenance, is_approved: bool) -> String {
+fn page_of(job: &Fabrication, source: &JobSource, is_approved: bool) -> String {
     let manifest = report::manifest(job, source);
     report::page(&Page { job, source, manifest: &manifest, proof: None, is_approved })
 }

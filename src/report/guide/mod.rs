@@ -7,7 +7,7 @@ use crate::geometry::{Point2, Vector2};
 use crate::ids::PartId;
 use crate::parts::Body;
 use crate::report::fins;
-use crate::report::manifest::Provenance;
+use crate::report::manifest::JobSource;
 use crate::report::picture::Picture;
 use crate::report::steps::{Step, standing, steps};
 use page::{BOLD, FONTS, GuidePage, MARGIN, PLAIN, POINTS_PER_MM, SIZE, Set, lines};
@@ -30,7 +30,7 @@ const NEW_EDGE: [f32; 3] = [0.72, 0.3, 0.0];
 const STANDING: [f32; 3] = [0.93, 0.95, 0.96];
 
 /// The guide of a job; `None` if nothing is to be assembled.
-pub fn guide(job: &Fabrication, source: &Provenance) -> Option<Vec<u8>> {
+pub fn guide(job: &Fabrication, source: &JobSource) -> Option<Vec<u8>> {
     let structure = job.structure.as_ref()?;
     let steps = steps(job, source.template);
     if steps.is_empty() {
@@ -149,7 +149,7 @@ const NO_STRESS: &str = "Put nothing under stress that was cleaned with alcohol 
     acrylic crazes. Work on a flat board, and dry-fit before you glue.";
 
 /// What it is and how to read it.
-fn title(job: &Fabrication, source: &Provenance, steps: usize) -> GuidePage {
+fn title(job: &Fabrication, source: &JobSource, steps: usize) -> GuidePage {
     let mut page = GuidePage::new();
     let name = job.structure.as_ref().map_or("", |structure| structure.name());
     let size = job.structure.as_ref().map(|s| s.size_text()).unwrap_or_default();

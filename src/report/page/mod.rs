@@ -17,7 +17,7 @@ use crate::fabrication::Fabrication;
 use crate::manifest::Manifest;
 use crate::picture::HEAT;
 use crate::proof::Proof;
-use crate::report::manifest::Provenance;
+use crate::report::manifest::JobSource;
 use crate::report::picture::FROM;
 use crate::report::steps;
 
@@ -27,7 +27,7 @@ pub struct Page<'a> {
     /// The job.
     pub job: &'a Fabrication,
     /// Where it came from.
-    pub source: &'a Provenance<'a>,
+    pub source: &'a JobSource<'a>,
     /// Its manifest, as written.
     pub manifest: &'a Manifest,
     /// What its files prove; `None` if no cut file was written.
