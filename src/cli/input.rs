@@ -187,11 +187,6 @@ pub(super) fn raw_bytes_of(path: &Path) -> Result<Vec<u8>, InputError> {
     std::fs::read(path).map_err(unreadable)
 }
 
-/// The bytes of a text file in any encoding but UTF-16.
-pub(super) fn bytes_of(path: &Path) -> Result<Vec<u8>, InputError> {
-    bytes(path, |_| Ok(()))
-}
-
 /// The text of a file.
 pub(super) fn text_of(path: &Path) -> Result<String, InputError> {
     text(path, bytes(path, |_| Ok(()))?)

@@ -76,7 +76,7 @@ fn order(args: &NestArgs, name: &str) -> Result<(Order, Vec<Finding>), Failure> 
     }
     let mut drawings = Vec::new();
     for path in &args.input {
-        let bytes = input::bytes_of(path)?;
+        let bytes = input::raw_bytes_of(path)?;
         let drawn = nest_drawing::read(&bytes, ending(path) == "dxf", &args.drawing);
         drawings.push((stem(path), drawn.map_err(Failure::of)?));
     }

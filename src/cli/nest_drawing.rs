@@ -103,6 +103,26 @@ enum DrawingNote {
     )]
     Doubled { count: usize, x: f64, y: f64 },
 
+    #[error(
+        "{count} cuts run over another cut of their part; one begins at {x:.2}, {y:.2}"
+    )]
+    #[diagnostic(
+        code(read::drawing_over),
+        severity(Warning),
+        help("the laser goes there twice; delete what lies double")
+    )]
+    Over { count: usize, x: f64, y: f64 },
+
+    #[error(
+        "{count} holes touch the outline or another hole; one does near {x:.2}, {y:.2}"
+    )]
+    #[diagnostic(
+        code(read::drawing_touching),
+        severity(Warning),
+        help("leave material between them, or draw what is left as one outline")
+    )]
+    Touching { count: usize, x: f64, y: f64 },
+
     #[error("{count} lines on {layer} are switched off and are left out")]
     #[diagnostic(
         code(read::drawing_hidden),
@@ -269,6 +289,10 @@ fn all_notes(drawn: &Drawn) -> Vec<DrawingNote> {
     let first = |points: &[Point2]| points.first().map(|p| (points.len(), p.x, p.y));
     let doubled = first(&drawn.doubled);
     notes.extend(doubled.map(|(count, x, y)| DrawingNote::Doubled { count, x, y }));
+    let over = first(&drawn.over);
+    notes.extend(over.map(|(count, x, y)| DrawingNote::Over { count, x, y }));
+    let touching = first(&drawn.touching);
+    notes.extend(touching.map(|(count, x, y)| DrawingNote::Touching { count, x, y }));
     let narrowest = drawn.gaps.iter().min_by(|a, b| a.width.total_cmp(&b.width));
     notes.extend(narrowest.map(|gap| DrawingNote::Gap {
         count: drawn.gaps.len(),
@@ -311,5 +335,6 @@ fn layers(drawn: &Drawn) -> Option<String> {
         all.truncate(MOST_LISTED);
         all.push(format!("and {more} more"));
     }
-    (drawn.layers.len() > 1).then(|| all.join("; "))
+    let is_telling = drawn.layers.len() > 1 || drawn.parts.is_empty();
+    (is_telling && !all.is_empty()).then(|| all.join("; "))
 }

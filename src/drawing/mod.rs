@@ -8,10 +8,13 @@ mod bezier;
 mod chain;
 mod curves;
 mod dxf;
+mod gaps;
+mod overlap;
 mod parts;
 mod pdf;
 mod spline;
 mod svg;
+mod text;
 mod transform;
 
 use crate::geometry::{Contour, Point2, Vertex};

@@ -6,6 +6,8 @@
 //! "engrave", and else from the line: closed ones are cut, open ones engraved.
 
 use crate::drawing::chain::{ends, joined};
+use crate::drawing::gaps::explain;
+use crate::drawing::overlap::{meetings, off};
 use crate::drawing::{Curve, Drawing, Source, is_cut};
 use crate::geometry::predicates::contains;
 use crate::geometry::{Contour, Point2, Rect};
@@ -67,6 +69,10 @@ pub struct Drawn {
     pub shared: Vec<Point2>,
     /// A point of each line that lies on another one and is cut once.
     pub doubled: Vec<Point2>,
+    /// A point of each cut that runs over another one of its part.
+    pub over: Vec<Point2>,
+    /// A point of each hole that touches the outline or another hole.
+    pub touching: Vec<Point2>,
     /// What is no line (text, pictures), by kind, with its count.
     pub unread: BTreeMap<String, usize>,
     /// Lines on what is switched off, by layer, with their count.
@@ -86,9 +92,8 @@ impl Rules {
         let Source { name, rgb } = &curve.source;
         let colour = rgb.map(|[r, g, b]| format!("#{r:02x}{g:02x}{b:02x}"));
         let names = [name.as_str(), curve.layer, colour.as_deref().unwrap_or("")];
-        let said = |rule: &&(String, Purpose)| {
-            names.iter().any(|name| rule.0.eq_ignore_ascii_case(name))
-        };
+        let names = names.map(str::to_lowercase);
+        let said = |rule: &&(String, Purpose)| names.contains(&rule.0.to_lowercase());
         if let Some((_, purpose)) = self.layers.iter().find(said) {
             return Some(*purpose);
         }
@@ -110,7 +115,7 @@ impl Rules {
 }
 
 /// A closed line that is cut.
-struct Ring {
+pub(super) struct Ring {
     contour: Contour,
     polygon: Vec<Point2>,
     bounds: Rect,
@@ -154,15 +159,11 @@ impl Ring {
     }
 
     /// Whether a point lies on its line.
-    fn is_under(&self, p: Point2) -> bool {
+    pub(super) fn is_under(&self, p: Point2) -> bool {
         let next = self.polygon.iter().cycle().skip(1);
         let mut edges = self.polygon.iter().zip(next);
         self.bounds.inflated(JOINED_MM).contains(p)
-            && edges.any(|(a, b)| {
-                let (way, off) = (b - a, p - a);
-                let share = off.dot(&way) / way.norm_squared().max(f64::MIN_POSITIVE);
-                (off - way * share.clamp(0.0, 1.0)).norm() <= JOINED_MM
-            })
+            && edges.any(|(&a, &b)| off(p, [a, b]) <= JOINED_MM)
     }
 
     /// Whether another ring is the same line.
@@ -228,6 +229,10 @@ pub fn drawn_parts(drawing: Drawing, rules: &Rules) -> Drawn {
         }
     }
     explain(&open, &rings, &mut drawn);
+    for [over, touching] in drawn.parts.iter().map(meetings) {
+        drawn.over.extend(over);
+        drawn.touching.extend(touching);
+    }
     drawn
 }
 
@@ -295,29 +300,6 @@ fn along(curve: &Curve) -> Vec<Point2> {
 fn lies_on(curve: &Curve, ring: &Ring) -> bool {
     let is_under = |p: &Point2| ring.is_under(*p);
     ends(curve).iter().all(is_under) && along(curve).iter().all(is_under)
-}
-
-/// Gaps wider than this are no slips, mm.
-const WIDEST_GAP: f64 = 10.0;
-
-/// Why open lines that lie on no part are not closed.
-fn explain(open: &[Curve], rings: &[Ring], drawn: &mut Drawn) {
-    for (k, curve) in open.iter().enumerate() {
-        let [from, to] = ends(curve);
-        if rings.iter().any(|r| r.is_under(from)) && rings.iter().any(|r| r.is_under(to))
-        {
-            drawn.shared.push(from);
-            continue;
-        }
-        let own = (to - from).norm();
-        let own = (curve.vertices.len() > 2).then_some(Gap { at: from, width: own });
-        let others = open.iter().enumerate().filter(|(other, _)| *other != k);
-        let gaps = others
-            .flat_map(|(_, other)| ends(other))
-            .flat_map(|p| [from, to].map(|at| Gap { at, width: (p - at).norm() }));
-        let nearest = gaps.chain(own).min_by(|a, b| a.width.total_cmp(&b.width));
-        drawn.gaps.extend(nearest.filter(|gap| gap.width <= WIDEST_GAP));
-    }
 }
 
 #[cfg(test)]

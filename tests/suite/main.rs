@@ -8,6 +8,7 @@ mod circles;
 mod connectors;
 mod design;
 mod diagnostics;
+mod drawings;
 mod gate;
 mod golden;
 mod held;

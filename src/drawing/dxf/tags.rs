@@ -1,6 +1,7 @@
 //! A DXF file as group codes with their values, ASCII or binary.
 
 use crate::drawing::DrawingError;
+use crate::drawing::text::{CodePage, code_page, text};
 use std::borrow::Cow;
 
 /// A group code with its value.
@@ -20,17 +21,18 @@ pub(super) fn tags(bytes: &[u8]) -> Result<Vec<Tag<'_>>, DrawingError> {
 }
 
 fn ascii(bytes: &[u8]) -> Result<Vec<Tag<'_>>, DrawingError> {
+    let page = code_page(bytes);
     let mut lines = bytes.split(|&byte| byte == b'\n').enumerate();
     let mut tags: Vec<Tag> = Vec::new();
     while let (Some((line, code)), Some((_, value))) = (lines.next(), lines.next()) {
-        let code = text(code);
+        let code = text(code, page);
         let wrong = |_| DrawingError::Dxf {
             line: line + 1,
             message: format!("{:?} is no group code", code.trim()),
         };
         let code: i32 =
             code.trim_start_matches('\u{feff}').trim().parse().map_err(wrong)?;
-        let value = trimmed(text(value));
+        let value = trimmed(text(value, page));
         check(code, &value, line + 2)?;
         if code == 0 && value == "EOF" {
             break;
@@ -38,14 +40,6 @@ fn ascii(bytes: &[u8]) -> Result<Vec<Tag<'_>>, DrawingError> {
         tags.push((code, value));
     }
     Ok(tags)
-}
-
-/// Bytes as text: UTF-8, or else Western European, which old files mostly are.
-fn text(bytes: &[u8]) -> Cow<'_, str> {
-    match std::str::from_utf8(bytes) {
-        Ok(text) => Cow::Borrowed(text),
-        Err(_) => Cow::Owned(bytes.iter().map(|&byte| char::from(byte)).collect()),
-    }
 }
 
 fn trimmed(text: Cow<'_, str>) -> Cow<'_, str> {
@@ -68,13 +62,14 @@ fn check(code: i32, value: &str, line: usize) -> Result<(), DrawingError> {
 /// Binary tags (DXF Reference, "Binary DXF Files"): little-endian, codes of two bytes, before
 /// R13 of one.
 fn binary(bytes: &[u8]) -> Result<Vec<Tag<'_>>, DrawingError> {
+    let page = code_page(bytes);
     let mut rest = bytes.get(BINARY.len() + 4..).ok_or(DrawingError::BinaryDxf)?;
     // The first tag is 0 SECTION: of a code of one byte the next byte is a letter.
     let wide = rest.get(1) == Some(&0);
     let mut tags: Vec<Tag> = Vec::new();
     loop {
-        let value =
-            code(&mut rest, wide).and_then(|code| Some((code, value(&mut rest, code)?)));
+        let value = code(&mut rest, wide)
+            .and_then(|code| Some((code, value(&mut rest, code, page)?)));
         let Some((code, value)) = value else { return Err(DrawingError::BinaryDxf) };
         if code == 0 && value == "EOF" {
             return Ok(tags);
@@ -103,7 +98,7 @@ fn code(rest: &mut &[u8], wide: bool) -> Option<i32> {
     }
 }
 
-fn value<'a>(rest: &mut &'a [u8], code: i32) -> Option<Cow<'a, str>> {
+fn value<'a>(rest: &mut &'a [u8], code: i32, page: CodePage) -> Option<Cow<'a, str>> {
     let count = match code {
         10..=59 | 110..=149 | 210..=239 | 460..=469 | 1010..=1059 => {
             let bytes = taken(rest, 8)?.try_into().ok()?;
@@ -120,7 +115,7 @@ fn value<'a>(rest: &mut &'a [u8], code: i32) -> Option<Cow<'a, str>> {
         }
         _ => {
             let end = rest.iter().position(|&byte| byte == 0)?;
-            let string = text(taken(rest, end)?);
+            let string = text(taken(rest, end)?, page);
             taken(rest, 1)?;
             return Some(string);
         }

@@ -10,7 +10,7 @@ mod viewport;
 
 use crate::drawing::transform::transformed;
 use crate::drawing::{Curve, Drawing, DrawingError, Pen, Reading, Source};
-use crate::drawing::{chain, is_cut, layer_coloured, layer_named};
+use crate::drawing::{chain, is_cut, layer_coloured, layer_named, text};
 use crate::tolerance::{ARC_SAGITTA_MM, JOINED_MM};
 use nalgebra::{Matrix3, Vector2};
 use roxmltree::{Document, Node, ParsingOptions};
@@ -33,7 +33,7 @@ use svgtypes::Transform;
 /// assert_eq!(drawing.curves[0].contour().signed_area().abs(), 2400.0);
 /// ```
 pub fn read_svg(bytes: &[u8], reading: &Reading) -> Result<Drawing, DrawingError> {
-    let text = String::from_utf8_lossy(bytes);
+    let text = text::xml(bytes);
     let other = |message: String| DrawingError::Other { message };
     // Entities that name each other are counted by the parser, ten deep at most.
     let options = ParsingOptions {

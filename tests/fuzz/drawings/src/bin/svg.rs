@@ -1,0 +1,10 @@
+#![no_main]
+
+use finwright::drawing::read_svg;
+use fuzz_drawings::{fuzz, sort};
+
+libfuzzer_sys::fuzz_target!(|bytes: &[u8]| {
+    if let Some(drawing) = fuzz(bytes, read_svg) {
+        sort(drawing);
+    }
+});
