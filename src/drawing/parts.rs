@@ -209,8 +209,23 @@ pub fn drawn_parts(drawing: Drawing, rules: &Rules) -> Drawn {
     }
     let rings = without_doubles(rings, &mut drawn);
     let part_of = sort(&rings, &mut drawn);
+    let open = marked(others, (&rings, &part_of), &mut drawn);
+    explain(&open, &rings, &mut drawn);
+    for [over, touching] in drawn.parts.iter().map(meetings) {
+        drawn.over.extend(over);
+        drawn.touching.extend(touching);
+    }
+    drawn
+}
+
+/// Adds lines that are no outline to the parts they lie on; open ones on none come back.
+fn marked(
+    lines: Vec<(Curve, Purpose, Option<Purpose>)>,
+    (rings, part_of): (&[Ring], &[Option<usize>]),
+    drawn: &mut Drawn,
+) -> Vec<Curve> {
     let mut open = Vec::new();
-    for (curve, purpose, said) in others {
+    for (curve, purpose, said) in lines {
         let may_be_cut = said.is_none_or(|said| said == Purpose::Cut) && !curve.closed;
         let at = curve.vertices[0].point;
         if may_be_cut && rings.iter().any(|ring| lies_on(&curve, ring)) {
@@ -228,12 +243,7 @@ pub fn drawn_parts(drawing: Drawing, rules: &Rules) -> Drawn {
             }
         }
     }
-    explain(&open, &rings, &mut drawn);
-    for [over, touching] in drawn.parts.iter().map(meetings) {
-        drawn.over.extend(over);
-        drawn.touching.extend(touching);
-    }
-    drawn
+    open
 }
 
 /// The rings without those that lie on an earlier one.

@@ -225,7 +225,7 @@ def finwright(binary, path, folder):
     run = subprocess.run(command, capture_output=True, text=True, timeout=20, check=False)
     rings = []
     if run.stdout.startswith("{"):
-        for part in json.loads(run.stdout)["parts"]:
+        for part in json.loads(run.stdout).get("parts", []):
             rings += [part["outline"], *part["holes"]]
     return rings, run.stderr, run.returncode
 
