@@ -1,7 +1,6 @@
 //! Drawings as people have them, through `nest`: each comes in whole and at its size, and
 //! what is left out is told. Expected values are the dimensions that were drawn.
 
-use std::path::Path;
 use std::process::Command;
 
 /// What `nest` makes of a drawing.
@@ -561,7 +560,7 @@ fn binary(text: &str) -> Vec<u8> {
         bytes.extend(code.to_le_bytes());
         match code {
             10..=59 | 210..=239 => {
-                bytes.extend(pair[1].parse::<f64>().unwrap().to_le_bytes())
+                bytes.extend(pair[1].parse::<f64>().unwrap().to_le_bytes());
             }
             60..=79 => bytes.extend(pair[1].parse::<i16>().unwrap().to_le_bytes()),
             90..=99 => bytes.extend(pair[1].parse::<i32>().unwrap().to_le_bytes()),
