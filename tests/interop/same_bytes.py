@@ -61,7 +61,7 @@ def cases() -> list[Case]:
         made("planarised", "fixtures/vault.obj", "--depth", "12,12", *ACCEPT),
         made("lap with hubs", "five", "--hubs", "4,7", *ACCEPT),
         made("hinge with hubs", "five", "--joint", "hinge", "--hubs", "4", *ACCEPT),
-        made("thorough", "three", "--effort", "thorough"),
+        ("thorough", [["make", "three", "--effort", "thorough", "-o", "job"], ["verify", "job", "--json"]]),
         made("scaled", "vault", "--scale", "1:2", "--fix", "lowest", "--seed", "3", *ACCEPT),
         made("replacement", "three", "--only", "S02,S03"),
         made("refused flexible", "three", "--joint", "hinge", "--fix", "none", verify=False),
