@@ -30,7 +30,9 @@ fn make(args: &CouponArgs, template: Template, console: Console) -> Result<End, 
     let job = job?;
     console.findings(&job.fabrication.findings);
     console.findings(&job.proof_findings);
-    jobdir::write(&dir, &job.files)?;
+    let dir = jobdir::place(&dir, job.end);
+    let kept = jobdir::write(&dir, &job.files)?;
+    kept.iter().for_each(|kept| console.say(&kept.to_string()));
     if args.json {
         print(&json::line(&job.manifest).map_err(Failure::of)?);
     }

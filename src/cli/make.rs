@@ -34,9 +34,10 @@ pub(super) fn run(args: &MakeArgs, console: Console) -> Result<End, Failure> {
     console.findings(&made.findings);
     console.findings(&job.proof_findings);
     let dir = || Path::new("out").join(folder_name(&job));
-    let dir = args.output.clone().unwrap_or_else(dir);
+    let dir = jobdir::place(&args.output.clone().unwrap_or_else(dir), job.end);
     if made.structure.is_some() {
-        jobdir::write(&dir, &job.files)?;
+        let kept = jobdir::write(&dir, &job.files)?;
+        kept.iter().for_each(|kept| console.say(&kept.to_string()));
     }
     if args.input.json {
         print(&json::line(&job.manifest).map_err(Failure::of)?);

@@ -4,7 +4,7 @@ use crate::cli::console::{Console, Terminal};
 use crate::cli::flags::nest::NestArgs;
 use crate::cli::flags::value::EffortLevel;
 use crate::cli::input::{self, InputError};
-use crate::cli::jobdir;
+use crate::cli::jobdir::{self, Kept};
 use crate::cli::nest_drawing;
 use crate::cli::nest_input::{self, Order, Task};
 use crate::cli::nest_progress::Progress;
@@ -39,7 +39,8 @@ pub(super) fn run(args: &NestArgs, console: Console) -> Result<End, Failure> {
     let mut nested = nested.map_err(Failure::of)?;
     nested.unplaced.splice(0..0, refused);
     let dir = args.output.clone().unwrap_or_else(|| Path::new("out").join(&order.name));
-    deliver(&order, &nested, args, (&dir, watch.threads()))?;
+    let kept = deliver(&order, &nested, args, (&dir, watch.threads()))?;
+    kept.iter().for_each(|kept| console.say(&kept.to_string()));
     console.findings(
         &notes.into_iter().chain(left_over(&nested.unplaced)).collect::<Vec<_>>(),
     );
@@ -173,7 +174,7 @@ fn deliver(
     nested: &Nested,
     args: &NestArgs,
     (dir, threads): (&Path, usize),
-) -> Result<(), Failure> {
+) -> Result<Option<Kept>, Failure> {
     let manifest = layout_json(&order.name, &order.shapes, &order.stock, nested);
     let sheets = layout_sheets(&order.shapes, &order.stock, &nested.layout, &order.lines);
     let text = json::text(&manifest).map_err(Failure::of)?;
@@ -189,11 +190,11 @@ fn deliver(
     {
         files.push((path, export::png(&map, &look).map_err(Failure::of)?));
     }
-    jobdir::write(dir, &files)?;
+    let kept = jobdir::write(dir, &files)?;
     if args.json {
         print(&json::line(&manifest).map_err(Failure::of)?);
     }
-    Ok(())
+    Ok(kept)
 }
 
 fn summary(nested: &Nested, args: &NestArgs, dir: &Path, stopped: bool) -> String {

@@ -8,7 +8,7 @@ use crate::diagnostic::Finding;
 use crate::gate::{self, Approved, Judged, Shut};
 use crate::geometry::{Contour, Point2};
 use crate::ids::{NodeId, PartId};
-use crate::nest::{self, Layout, NestError, Shape};
+use crate::nest::{self, Effort, Layout, NestError, Shape, Stock};
 use crate::parts::{self, Body, Making, Part, PartFinding, Plan, Step};
 use crate::rigidity::Verdict;
 use crate::settings::Settings;
@@ -18,6 +18,7 @@ use crate::tolerance::ARC_SAGITTA_MM;
 use crate::vendor::{self, Profile, Request, VendorSheets};
 use crate::watch::{Stopped, Watch};
 use judge::judged;
+use std::collections::BTreeMap;
 
 /// A structure on its way to sheets, or a coupon, as far as it came.
 #[derive(Debug, Clone, PartialEq)]
@@ -204,8 +205,15 @@ impl Fabrication {
         // Parts that cross themselves cannot lie soundly, and that was said of them already.
         let crossing = "parts::outline_crosses_itself";
         let crossing = self.findings.iter().any(|found| found.code == crossing);
-        match nest::nest(&shapes, &settings.stock, &settings.effort, watch) {
-            Ok(layout) => self.layout = layout,
+        match nest::search(&shapes, &settings.stock, &settings.effort, watch) {
+            Ok(found) => {
+                watch.unless_stopped()?;
+                self.layout = found.layout;
+                if let Some(error) = found.unplaced.into_iter().next() {
+                    let finding = self.not_placed(error, &shapes, watch);
+                    self.findings.push(finding);
+                }
+            }
             Err(NestError::Stopped(stopped)) => return Err(stopped),
             Err(NestError::Unsound { .. }) if crossing => {}
             Err(error) => self.findings.push(error.into()),
@@ -215,6 +223,33 @@ impl Fabrication {
         let placements = sheets.flat_map(|sheet| &mut sheet.placements);
         placements.for_each(|placement| placement.shape = copies[placement.shape]);
         Ok(())
+    }
+
+    /// Why not all parts are on sheets. Where the stock is used up, they are laid on as many
+    /// sheets as it takes: for the pictures, and to say how many.
+    fn not_placed(
+        &mut self,
+        error: NestError,
+        shapes: &[Shape],
+        watch: &mut dyn Watch,
+    ) -> Finding {
+        let used_up = matches!(error, NestError::StockUsedUp { .. });
+        let finding = Finding::from(error);
+        let endless = |sheet: &Stock| Stock { count: None, ..sheet.clone() };
+        let stock: Vec<Stock> = self.settings.stock.iter().map(endless).collect();
+        let first = Effort { trials: 1, ..self.settings.effort };
+        let all = used_up.then(|| nest::search(shapes, &stock, &first, watch));
+        let Some(Ok(all)) = all else { return finding };
+        self.layout = all.layout;
+        let mut sizes: BTreeMap<usize, usize> = BTreeMap::new();
+        self.layout.sheets.iter().for_each(|s| *sizes.entry(s.stock).or_default() += 1);
+        let size = |(&kind, count): (&usize, &usize)| {
+            let Stock { width, height, .. } = &stock[kind];
+            format!("{count} of {width} x {height} mm")
+        };
+        let sizes = sizes.iter().map(size).collect::<Vec<_>>().join(" and ");
+        let help = format!("all parts would take {sizes}: {}", finding.help);
+        Finding { help, ..finding }
     }
 
     /// Makes the sheets for the service that the template names, if it names one.

@@ -82,7 +82,7 @@ fn a_trellis_leaves_no_cut_file_unless_it_is_accepted() {
     assert_eq!(code(&refused), 3);
     let said = String::from_utf8_lossy(&refused.stderr).into_owned();
     assert!(said.contains("rigidity::mechanism"), "{said}");
-    let job = place.path().join("out/trellis");
+    let job = place.path().join("out/trellis.refused");
     let cut = endings(&job).into_iter().filter(|e| ["dxf", "svg", "pdf"].contains(&&**e));
     assert_eq!(cut.count(), 0);
     let manifest = |job: &Path| -> serde_json::Value {
@@ -93,6 +93,7 @@ fn a_trellis_leaves_no_cut_file_unless_it_is_accepted() {
     assert_eq!(manifest(&job)["verdict"]["mobility"], 1);
     let accepted = [&words[..], &["--accept-flexible", "a folding screen"]].concat();
     assert_eq!(code(&run(place.path(), &accepted)), 0);
+    let job = place.path().join("out/trellis");
     let passed = manifest(&job);
     assert_eq!(passed["accepted_flexible"], "a folding screen");
     assert_eq!(passed["verdict"]["verdict"], "mechanism");
@@ -149,7 +150,7 @@ fn hinges_are_judged_before_their_parts_exist() {
     let place = tempfile::tempdir().expect("there is room");
     let ends = |words: &[&str]| code(&run(place.path(), words));
     assert_eq!(ends(&["make", "dome", "--joint", "hinge", "-q"]), 3);
-    assert!(place.path().join("out/dome/job.json").exists());
+    assert!(place.path().join("out/dome.refused/job.json").exists());
     assert_eq!(ends(&["check", "dome", "--joint", "hinge", "-q"]), 3);
     assert_eq!(ends(&["rigidity", "dome", "--joint", "hinge", "-q"]), 3);
     assert_eq!(ends(&["rigidity", "vault", "-q"]), 0);

@@ -75,10 +75,85 @@ fn a_structure_that_cannot_be_cut_gets_stamped_pictures_only() {
     let job = place.path().join("job");
     let (code, _) = make("fixtures/bad/parts/web_too_thin.json", &job);
     assert_eq!(code, Some(3));
-    assert_eq!(entries(place.path()), ["job"]);
-    let files = ["job.json", "parts.csv", "preview", "report.html", "structure.json"];
+    assert_eq!(entries(place.path()), ["job.refused"]);
+    let job = place.path().join("job.refused");
+    let files = [
+        "SHA256SUMS",
+        "job.json",
+        "parts.csv",
+        "preview",
+        "report.html",
+        "structure.json",
+    ];
     assert_eq!(entries(&job), files);
     assert!(entries(&job.join("preview")).iter().all(|name| name.ends_with(".png")));
+}
+
+/// All below a folder with its bytes.
+fn all(folder: &Path) -> Vec<(String, Vec<u8>)> {
+    let mut files = Vec::new();
+    for name in entries(folder) {
+        let path = folder.join(&name);
+        if path.is_dir() {
+            files.extend(all(&path));
+        } else {
+            files.push((
+                path.to_string_lossy().into_owned(),
+                std::fs::read(path).unwrap(),
+            ));
+        }
+    }
+    files
+}
+
+#[test]
+fn a_good_job_outlives_a_refused_one_and_what_was_changed_is_kept() {
+    let place = tempfile::tempdir().unwrap();
+    let job = place.path().join("job");
+    assert_eq!(make("three", &job).0, Some(0));
+    std::fs::write(job.join("sheets/sheet-01.svg"), "edited").unwrap();
+    std::fs::write(job.join("notes.txt"), "cut twice").unwrap();
+    let good = all(&job);
+    // Refused, and refused again: the good one is as it was, edits and all.
+    for _ in 0..2 {
+        assert_eq!(make("fixtures/bad/parts/web_too_thin.json", &job).0, Some(3));
+        assert_eq!(all(&job), good);
+        assert_eq!(entries(place.path()), ["job", "job.refused"]);
+    }
+    assert_eq!(make("five", &job).0, Some(0));
+    assert_eq!(entries(place.path()), ["job", "job.before-1", "job.refused"]);
+    let kept = place.path().join("job.before-1");
+    assert_eq!(entries(&kept), ["notes.txt", "sheets"]);
+    assert_eq!(entries(&kept.join("sheets")), ["sheet-01.svg"]);
+    assert_eq!(std::fs::read(kept.join("notes.txt")).unwrap(), b"cut twice");
+}
+
+#[test]
+fn what_the_stock_does_not_hold_is_pictured_with_the_sheets_it_would_take() {
+    let place = tempfile::tempdir().unwrap();
+    let output = Command::new(env!("CARGO_BIN_EXE_finwright"))
+        .args(["make", "three", "-t", "fixtures/bad/nest/two-small-sheets.toml", "-o"])
+        .arg(place.path().join("job"))
+        .current_dir(env!("CARGO_MANIFEST_DIR"))
+        .output()
+        .unwrap();
+    assert_eq!(output.status.code(), Some(3));
+    let said = String::from_utf8(output.stderr).unwrap();
+    assert!(said.contains("all parts would take "), "{said}");
+    let job = place.path().join("job.refused");
+    assert!(entries(&job.join("preview")).len() > 2);
+}
+
+#[test]
+fn a_report_of_what_was_never_made_shows_no_zeros() {
+    let place = tempfile::tempdir().unwrap();
+    let (code, _) =
+        make("fixtures/bad/parts/model_too_small.json", &place.path().join("job"));
+    assert_eq!(code, Some(3));
+    let page = place.path().join("job.refused/report.html");
+    let page = std::fs::read_to_string(page).unwrap();
+    assert!(!page.contains("<b>0</b>") && !page.contains("0.0 m"), "{page}");
+    assert!(page.contains("No part was made."));
 }
 
 #[test]

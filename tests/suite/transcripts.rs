@@ -170,7 +170,7 @@ fn exit_codes_tell_how_it_ended() {
     assert_eq!(ends(&[&["check"], &sharp[..]].concat()), 3);
     assert_eq!(ends(&[&["make"], &sharp[..]].concat()), 3);
     // Refused: the report and stamped pictures, and nothing a laser could cut.
-    let written = files(&place.path().join("out/zigzag"));
+    let written = files(&place.path().join("out/zigzag.refused"));
     assert!(
         written.contains_key("job.json") && written.contains_key("preview/sheet-01.png")
     );
@@ -198,7 +198,9 @@ fn a_folder_of_somebody_else_is_never_touched_and_a_job_is_replaced_whole() {
     let job = files(&place.path().join("job"));
     assert!(!job.contains_key("sheets/sheet-99.dxf"));
     assert!(said(&job["job.json"]).contains("\"name\": \"five\""));
-    assert_eq!(entries(place.path()), ["job", "work"]);
+    let kept = files(&place.path().join("job.before-1"));
+    assert_eq!(kept.keys().collect::<Vec<_>>(), ["sheets/sheet-99.dxf"]);
+    assert_eq!(entries(place.path()), ["job", "job.before-1", "work"]);
 }
 
 #[test]

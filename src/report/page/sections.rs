@@ -26,6 +26,13 @@ pub(super) fn summary(page: &Page) -> String {
     ];
     let cost = totals.cost.filter(|cost| *cost > 0.0);
     cards.push(("material", cost.map_or("not priced".to_owned(), |c| format!("{c:.2}"))));
+    // What was never made has no figures: a zero would be read as a fact.
+    let known = match (totals.parts, totals.sheets) {
+        (0, _) => 0,
+        (_, 0) => 1,
+        _ => cards.len(),
+    };
+    cards.truncate(known);
     let card = |(name, value): &(&str, String)| {
         format!("<div class=\"card\"><b>{}</b>{name}</div>", html::text(value))
     };
@@ -89,7 +96,7 @@ pub(super) fn findings(mut all: Vec<&Finding>) -> String {
     all.sort_by_key(|finding| std::cmp::Reverse(finding.severity));
     let rows: Vec<Vec<String>> = all.into_iter().map(finding).collect();
     let (caption, heads) = (
-        format!("{} findings", rows.len()),
+        format!("{} finding{}", rows.len(), if rows.len() == 1 { "" } else { "s" }),
         ["", "what was found", "what to do", "parts"],
     );
     let body = table(&caption, &heads, &rows);
@@ -168,6 +175,9 @@ pub(super) fn parts(page: &Page) -> String {
         ]
     };
     let rows: Vec<Vec<String>> = job.parts_with_ids().map(row).collect();
+    if rows.is_empty() {
+        return "<p>No part was made.</p>\n".to_owned();
+    }
     let heads = ["part", "length mm", "height mm", "cut mm", "sheet", "nodes in order"];
     let caption = match job.has(|body| matches!(body, Body::Fin(_))) {
         true => "Fins, then connectors by their nodes",
