@@ -12,6 +12,7 @@ mod gaps;
 mod overlap;
 mod parts;
 mod pdf;
+mod ring;
 mod spline;
 mod svg;
 mod text;
@@ -25,7 +26,8 @@ use thiserror::Error;
 
 pub use chain::joined;
 pub use dxf::read_dxf;
-pub use parts::{Drawn, DrawnPart, Gap, Purpose, Rules, drawn_parts};
+pub use gaps::Gap;
+pub use parts::{Drawn, DrawnPart, Purpose, Rules, drawn_parts};
 pub use pdf::read_pdf;
 pub use svg::read_svg;
 

@@ -1,7 +1,8 @@
 //! Cuts of one part that touch or run over each other: the laser would go there twice, or
 //! leave nothing between them.
 
-use crate::drawing::{DrawnPart, Purpose};
+use crate::drawing::Curve;
+use crate::drawing::ring::off;
 use crate::geometry::{Contour, Point2, Rect, Vertex};
 use crate::tolerance::{ARC_SAGITTA_MM, JOINED_MM};
 use rstar::primitives::{GeomWithData, Rectangle};
@@ -15,9 +16,24 @@ struct Edge {
     is_mark: bool,
 }
 
-/// Where cuts of a part run over each other, and where its edges touch one another.
-pub(super) fn meetings(part: &DrawnPart) -> [Vec<Point2>; 2] {
-    let edges = edges(part);
+/// Where edges (outline and holes) and cuts of a part run over each other, and where its edges
+/// touch one another.
+pub(super) fn meetings(
+    (outline, holes): (&Contour, &[Contour]),
+    cuts: &[&Curve],
+) -> [Vec<Point2>; 2] {
+    let rings = std::iter::once(outline).chain(holes);
+    let rings = rings.map(|ring| (ring.clone(), true, false));
+    let cuts = cuts.iter().map(|cut| {
+        let mut line = cut.contour();
+        if !cut.closed
+            && let Some(last) = line.vertices.last_mut()
+        {
+            *last = Vertex::line(last.point);
+        }
+        (line, cut.closed, true)
+    });
+    let edges = edges(rings.chain(cuts));
     let boxed = |(k, edge): (usize, &Edge)| {
         GeomWithData::new(Rectangle::from_aabb(around(&edge.ends)), k)
     };
@@ -46,21 +62,10 @@ pub(super) fn meetings(part: &DrawnPart) -> [Vec<Point2>; 2] {
     [over, touching.into_iter().map(|(_, at)| at).collect()]
 }
 
-fn edges(part: &DrawnPart) -> Vec<Edge> {
-    let rings = std::iter::once(&part.outline).chain(&part.holes);
-    let rings = rings.map(|ring| (ring.clone(), true, false));
-    let cuts = part.marks.iter().filter(|(purpose, _)| *purpose == Purpose::Cut);
-    let cuts = cuts.map(|(_, cut)| {
-        let mut line = cut.contour();
-        if !cut.closed
-            && let Some(last) = line.vertices.last_mut()
-        {
-            *last = Vertex::line(last.point);
-        }
-        (line, cut.closed, true)
-    });
+/// The edges of some lines: each with whether it is closed, and whether it is a mark.
+fn edges(lines: impl Iterator<Item = (Contour, bool, bool)>) -> Vec<Edge> {
     let mut edges = Vec::new();
-    for (line, (contour, closed, is_mark)) in rings.chain(cuts).enumerate() {
+    for (line, (contour, closed, is_mark)) in lines.enumerate() {
         let points = Contour::flattened(&contour, ARC_SAGITTA_MM);
         let count = points.len() - usize::from(!closed);
         let next = points.iter().cycle().skip(1);
@@ -79,13 +84,6 @@ fn around(edge: &[Point2; 2]) -> AABB<[f64; 2]> {
 fn apart(a: [Point2; 2], b: [Point2; 2]) -> f64 {
     let [to_a, to_b] = [b.map(|p| off(p, a)), a.map(|p| off(p, b))];
     to_a.into_iter().chain(to_b).fold(f64::INFINITY, f64::min)
-}
-
-/// Distance of a point from an edge, mm.
-pub(super) fn off(p: Point2, [a, b]: [Point2; 2]) -> f64 {
-    let (way, off) = (b - a, p - a);
-    let share = off.dot(&way) / way.norm_squared().max(f64::MIN_POSITIVE);
-    (off - way * share.clamp(0.0, 1.0)).norm()
 }
 
 /// Length that two edges have in common, mm.

@@ -6,11 +6,11 @@
 //! "engrave", and else from the line: closed ones are cut, open ones engraved.
 
 use crate::drawing::chain::{ends, joined};
-use crate::drawing::gaps::explain;
-use crate::drawing::overlap::{meetings, off};
+use crate::drawing::gaps::{Gap, explain};
+use crate::drawing::overlap::meetings;
+use crate::drawing::ring::Ring;
 use crate::drawing::{Curve, Drawing, Source, is_cut};
-use crate::geometry::predicates::contains;
-use crate::geometry::{Contour, Point2, Rect};
+use crate::geometry::{Contour, Point2};
 use crate::tolerance::{ARC_SAGITTA_MM, JOINED_MM};
 use std::collections::BTreeMap;
 
@@ -45,15 +45,6 @@ pub struct DrawnPart {
     pub holes: Vec<Contour>,
     /// What is engraved or scored on it, and open cuts.
     pub marks: Vec<(Purpose, Curve)>,
-}
-
-/// An open line that a small gap keeps from being closed.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Gap {
-    /// One end of the gap.
-    pub at: Point2,
-    /// Its width, mm.
-    pub width: f64,
 }
 
 /// What is on a drawing.
@@ -114,68 +105,6 @@ impl Rules {
     }
 }
 
-/// A closed line that is cut.
-pub(super) struct Ring {
-    contour: Contour,
-    polygon: Vec<Point2>,
-    bounds: Rect,
-    area: f64,
-}
-
-/// Corners of a ring that are asked where they lie, at most: one may touch another ring.
-const WITNESSES: usize = 9;
-
-impl Ring {
-    fn new(curve: &Curve) -> Self {
-        let contour = curve.contour();
-        let (polygon, area) =
-            (contour.flattened(ARC_SAGITTA_MM), contour.signed_area().abs());
-        let bounds = Rect::around(&polygon);
-        Self { contour, polygon, bounds, area }
-    }
-
-    /// The line as it runs around material, or around a hole.
-    fn turned(&self, counter_clockwise: bool) -> Contour {
-        if (self.contour.signed_area() > 0.0) == counter_clockwise {
-            self.contour.clone()
-        } else {
-            self.contour.reversed()
-        }
-    }
-
-    fn contains(&self, p: Point2) -> bool {
-        self.bounds.contains(p) && contains(&self.polygon, p)
-    }
-
-    /// Whether most of another ring lies in this one.
-    fn surrounds(&self, other: &Self) -> bool {
-        if self.area <= other.area || !self.bounds.touches(&other.bounds) {
-            return false;
-        }
-        let step = other.polygon.len().div_ceil(WITNESSES);
-        let witnesses = || other.polygon.iter().step_by(step);
-        let inside = witnesses().filter(|p| self.contains(**p)).count();
-        2 * inside > witnesses().count()
-    }
-
-    /// Whether a point lies on its line.
-    pub(super) fn is_under(&self, p: Point2) -> bool {
-        let next = self.polygon.iter().cycle().skip(1);
-        let mut edges = self.polygon.iter().zip(next);
-        self.bounds.inflated(JOINED_MM).contains(p)
-            && edges.any(|(&a, &b)| off(p, [a, b]) <= JOINED_MM)
-    }
-
-    /// Whether another ring is the same line.
-    fn is_same(&self, other: &Self) -> bool {
-        let [a, b] = [self.bounds, other.bounds];
-        (a.min - b.min).amax() <= JOINED_MM
-            && (a.max - b.max).amax() <= JOINED_MM
-            && other.polygon.iter().all(|p| self.is_under(*p))
-            && self.polygon.iter().all(|p| other.is_under(*p))
-    }
-}
-
 /// Sorts the lines of a drawing into parts.
 pub fn drawn_parts(drawing: Drawing, rules: &Rules) -> Drawn {
     let within = rules.join.max(JOINED_MM);
@@ -210,8 +139,11 @@ pub fn drawn_parts(drawing: Drawing, rules: &Rules) -> Drawn {
     let rings = without_doubles(rings, &mut drawn);
     let part_of = sort(&rings, &mut drawn);
     let open = marked(others, (&rings, &part_of), &mut drawn);
-    explain(&open, &rings, &mut drawn);
-    for [over, touching] in drawn.parts.iter().map(meetings) {
+    (drawn.shared, drawn.gaps) = explain(&open, &rings);
+    for part in &drawn.parts {
+        let cuts = part.marks.iter().filter(|(purpose, _)| *purpose == Purpose::Cut);
+        let cuts: Vec<&Curve> = cuts.map(|(_, cut)| cut).collect();
+        let [over, touching] = meetings((&part.outline, &part.holes), &cuts);
         drawn.over.extend(over);
         drawn.touching.extend(touching);
     }

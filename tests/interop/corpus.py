@@ -129,7 +129,9 @@ def dxf(path):
         document = ezdxf.readfile(path)
     except (ezdxf.DXFError, UnicodeDecodeError):
         document, _ = ezdxf.recover.readfile(path)
-    unit = document.header.get("$INSUNITS", 0)
+    # Without a header ezdxf takes metres.
+    says = b"$INSUNITS" in path.read_bytes()
+    unit = document.header.get("$INSUNITS", 0) if says else 0
     try:
         scale = units.conversion_factor(unit, 4) if unit else 1.0
     except TypeError:  # a unit that the reference does not know
