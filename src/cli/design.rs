@@ -8,8 +8,8 @@ use crate::cli::outcome::{End, Failure, print};
 use crate::design::planarise::PlanariseError;
 use crate::design::surface::{FormatError, Polygons, Surface, clean, read_ply, read_stl};
 use crate::design::{
-    Align, DesignFigures, Designed, SURFACES, SingularWish, Size, Wishes, design,
-    design_picture, surface_named,
+    Align, ChainFinding, DesignFigures, Designed, SURFACES, SingularWish, Size, Wishes,
+    design, design_picture, surface_named,
 };
 use crate::diagnostic::Finding;
 use crate::geometry::Point3;
@@ -35,6 +35,18 @@ const FINS: [usize; 4] = [2, 3, 5, 6];
     help("write X Y Z FINS, such as `120 40 15 3`; fins are 2, 3, 5 or 6")
 )]
 struct BadPlace {
+    path: PathBuf,
+    line: usize,
+}
+
+/// A line of a file of curves that is none.
+#[derive(Debug, Error, Diagnostic)]
+#[error("{}: line {line} is no polyline", path.display())]
+#[diagnostic(
+    code(input::bad_curve),
+    help("write points as `v X Y Z` and curves as `l` with the numbers of two or more")
+)]
+struct BadCurve {
     path: PathBuf,
     line: usize,
 }
@@ -68,6 +80,8 @@ pub(super) fn run(args: &DesignArgs, console: Console) -> Result<End, Failure> {
             return Ok(refused(args, console, &findings));
         }
     };
+    let (surface, missed) = followed(args, surface)?;
+    findings.extend(missed);
     let mut terminal = Terminal::new(console, None);
     let result = design(&surface, &name, &wishes(args)?, &mut terminal);
     terminal.finish();
@@ -161,9 +175,10 @@ fn wishes(args: &DesignArgs) -> Result<Wishes, Failure> {
     };
     Ok(Wishes {
         size: match args.cell {
-            Some(cell) => Size::Cell(cell),
+            Some([first, second]) => Size::Cell((first * second).sqrt()),
             None => Size::Nodes(args.nodes.unwrap_or(NODES)),
         },
+        aspect: args.cell.map_or(1.0, |[first, second]| first / second),
         align: match args.align {
             AlignWhen::Auto => Align::Auto,
             AlignWhen::None => Align::None,
@@ -174,6 +189,56 @@ fn wishes(args: &DesignArgs) -> Result<Wishes, Failure> {
         singular,
         even: args.even,
     })
+}
+
+/// The surface with the lines that fins are to follow.
+fn followed(
+    args: &DesignArgs,
+    surface: Surface,
+) -> Result<(Surface, Vec<Finding>), Failure> {
+    match args.follow.as_deref() {
+        None => Ok((surface, Vec::new())),
+        Some("auto") => {
+            // Shorter ones are noise.
+            let least = surface.area().sqrt() / 10.0;
+            Ok((surface.following_creases(least), Vec::new()))
+        }
+        Some(path) => {
+            let (surface, missed) = surface.following(&curves(Path::new(path), args)?);
+            let missed =
+                missed.into_iter().map(|k| ChainFinding::CurveMissed { curve: k + 1 });
+            Ok((surface, missed.map(Finding::from).collect()))
+        }
+    }
+}
+
+/// The polylines of an OBJ file.
+fn curves(path: &Path, args: &DesignArgs) -> Result<Vec<Vec<Point3>>, Failure> {
+    let unit = args.units.unwrap_or(Unit::Millimetre).millimetres();
+    let (mut points, mut curves) = (Vec::new(), Vec::new());
+    for (number, line) in input::text_of(path)?.lines().enumerate() {
+        let bad = || Failure::of(BadCurve { path: path.to_owned(), line: number + 1 });
+        let mut words = line.split_whitespace();
+        match words.next() {
+            Some("v") => {
+                let numbers: Vec<f64> =
+                    words.map_while(|word| word.parse().ok()).collect();
+                let [x, y, z, ..] = numbers[..] else { return Err(bad()) };
+                points.push(Point3::new(x, y, z) * unit);
+            }
+            Some("l") => {
+                let corner = |word: &str| {
+                    let number = word.split('/').next()?.parse::<i64>().ok()?;
+                    let back = if number < 0 { points.len() as i64 + 1 } else { 0 };
+                    points.get(usize::try_from(number + back - 1).ok()?).copied()
+                };
+                let curve: Option<Vec<Point3>> = words.map(corner).collect();
+                curves.push(curve.filter(|curve| curve.len() > 1).ok_or_else(bad)?);
+            }
+            _ => {}
+        }
+    }
+    Ok(curves)
 }
 
 /// Lines of three coordinates and a number of fins.

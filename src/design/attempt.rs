@@ -14,9 +14,13 @@ use std::collections::BTreeSet;
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Attempt<'a> {
     pub cell: f64,
+    /// How many times as long fins of family 1 are as those of family 2.
+    pub aspect: f64,
     pub torsal: f64,
     pub even: f64,
     pub align: bool,
+    /// Whether fins follow the lines inside the surface.
+    pub follow: bool,
     /// Edges at the boundary shorter than this share of a cell are joined.
     pub short: f64,
     /// Where singular vertices have to be; `None`: where they come.
@@ -25,7 +29,7 @@ pub(super) struct Attempt<'a> {
 
 /// How near the number of nodes comes to that which is wanted, and how often the cells are
 /// resized for it.
-const NEAR_NODES: f64 = 0.05;
+const NEAR_NODES: f64 = 0.08;
 const RESIZINGS: usize = 4;
 /// A boundary that turns by more than this, radians, has a corner.
 const CORNER: f64 = std::f64::consts::FRAC_PI_4;
@@ -35,8 +39,10 @@ pub(super) struct Meshed {
     pub quads: Quads,
     pub axes: Vec<Vector3>,
     pub directions: Vec<[Vector3; 2]>,
-    /// Length of a fin that was aimed at, mm.
+    /// Length of a fin that was aimed at, mm; of two families the geometric mean.
     pub cell: f64,
+    /// Ratio of the lengths in both families that was aimed at.
+    pub aspect: f64,
 }
 
 /// Why there is no mesh.
@@ -72,13 +78,14 @@ fn meshed(
     measures: &Measures,
     attempt: Attempt,
 ) -> Result<Meshed, Missed> {
-    let Attempt { cell, torsal, even, align, short, singular: given } = attempt;
+    let Attempt { cell, aspect, torsal, even, align, follow, short, singular: given } =
+        attempt;
     let axes = axes::wanted(surface, measures, cell).map_err(|_| Missed::NotDefinite)?;
-    let wish = directions::Wish { cell, torsal, align, singular: given };
+    let wish = directions::Wish { cell, torsal, align, follow, singular: given };
     let directions = Directions::of(surface, measures, &axes, &wish)
         .map_err(|_| Missed::NotDefinite)?;
     let singular: Vec<Singular> = singular(surface, measures, &directions);
-    let wish = map::Wish { cell, even, align };
+    let wish = map::Wish { cell, aspect, even, align, follow };
     let map = map::map(surface, measures, &directions, &singular, &wish)
         .map_err(Missed::Map)?;
     if let Some(&triangle) = map.flipped.first() {
@@ -94,7 +101,7 @@ fn meshed(
         directions.pair(triangle, 0).map(|d| frame[0] * d.x + frame[1] * d.y)
     };
     let directions = (0..surface.triangles.len()).map(pair).collect();
-    Ok(Meshed { quads, axes, directions, cell })
+    Ok(Meshed { quads, axes, directions, cell, aspect: map.aspect })
 }
 
 pub(super) fn foot(node: &quads::Node) -> Foot {

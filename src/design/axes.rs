@@ -1,8 +1,8 @@
 //! Axes on the dense surface: what the structure's axes should be.
 
-use crate::design::spd::{Entries, Factor, NotDefinite};
 use crate::design::surface::{Measures, Surface, previous};
 use crate::geometry::{Vector3, trig};
+use crate::sparse::{Cholesky, NotPositiveDefinite, Triplets};
 
 /// The wanted axes of a surface: those of its file, or its normals, smoothed over `length`.
 ///
@@ -11,12 +11,12 @@ use crate::geometry::{Vector3, trig};
 /// as far on fine triangles as on coarse ones.
 ///
 /// # Errors
-/// [`NotDefinite`] if the system cannot be factored.
+/// [`NotPositiveDefinite`] if the system cannot be factored.
 pub(super) fn wanted(
     surface: &Surface,
     measures: &Measures,
     length: f64,
-) -> Result<Vec<Vector3>, NotDefinite> {
+) -> Result<Vec<Vector3>, NotPositiveDefinite> {
     if let Some(axes) = &surface.axes {
         return Ok(axes.clone());
     }
@@ -30,9 +30,9 @@ pub(super) fn wanted(
         }
     }
     let time = length * length / 2.0;
-    let mut system = Entries::new(count);
+    let mut system = Triplets::new(count);
     for (vertex, &mass) in masses.iter().enumerate() {
-        system.add(vertex, vertex, mass);
+        system.add([vertex, vertex], mass);
     }
     for side in 0..surface.side_count() {
         let angle = measures.angles[previous(side)];
@@ -41,7 +41,7 @@ pub(super) fn wanted(
         let weight = (1.0 / trig::tan(angle)).max(0.0) / 2.0;
         system.add_difference(ends, [1.0, 1.0], time * weight);
     }
-    let factor = Factor::new(&system)?;
+    let mut factor = Cholesky::of(&system.matrix())?;
     let mut right = vec![0.0; 3 * count];
     for (vertex, normal) in normals.iter().enumerate() {
         let normal = normal.try_normalize(0.0).unwrap_or(Vector3::z());

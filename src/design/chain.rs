@@ -7,7 +7,7 @@
 use crate::design::attempt::{Attempt, Meshed, foot, sized};
 use crate::design::directions::Singular;
 use crate::design::families::families;
-use crate::design::figures::{DesignFigures, Judged};
+use crate::design::figures::{DesignFigures, Judged, SingularNode};
 use crate::design::finding::ChainFinding;
 use crate::design::planarise::{self, PlanariseError, Planarised, planarise};
 use crate::design::quads::Rank;
@@ -16,7 +16,7 @@ use crate::design::wishes::{Align, SingularWish, Size, Wishes};
 use crate::diagnostic::{Finding, passes};
 use crate::geometry::{Point3, Vector3};
 use crate::ids::{FinId, NodeId};
-use crate::structure::{Draft, Provenance};
+use crate::structure::{DesignRecord, Draft};
 use crate::tolerance::DESIGNED_PLANAR;
 use crate::watch::{Stopped, Watch};
 
@@ -49,15 +49,20 @@ const LESS_SHORT: f64 = 0.5;
 const DEPTH: f64 = 0.35;
 /// Weights tried for even cells, in the order of what they cost: of torsal directions as a
 /// share of their own, and of even spacing.
-const EVENER: [[f64; 2]; 7] = [
+const EVENER: [[f64; 2]; 8] = [
     [1.0, 3.0],
     [1.0, 10.0],
     [0.3, 1.0],
     [0.3, 3.0],
     [0.3, 10.0],
+    [0.3, 18.0],
     [0.1, 3.0],
     [0.1, 10.0],
 ];
+/// How near to the middle, as shares of their distance, nodes of three fins are tried, and
+/// how much farther axes may turn for it, degrees.
+const NEARER: [f64; 4] = [0.9, 0.8, 0.7, 0.6];
+const MORE_TURN_DEG: f64 = 1.0;
 /// Share of fins in band that is even enough, and how far axes may turn for it, degrees.
 const EVEN_ENOUGH: f64 = 0.95;
 const MOST_EVEN_TURN_DEG: f64 = 13.0;
@@ -96,13 +101,16 @@ pub fn design(
     };
     let first = Attempt {
         cell: search.cell(),
+        aspect: wishes.aspect,
         torsal: TORSAL,
         even: EVEN,
         align: wishes.align != Align::None,
+        follow: true,
         short: SHORT,
         singular: singular.as_deref(),
     };
     let (designed, attempt) = search.ladder(first, watch)?;
+    let designed = search.gathered(designed, attempt, watch)?;
     if wishes.even { search.evened(designed, attempt, watch) } else { Ok(designed) }
 }
 
@@ -115,11 +123,11 @@ impl Search<'_> {
     }
 
     /// Where the structure comes from, for its record.
-    fn provenance(&self, cell: f64, aligned: bool) -> Provenance {
+    fn provenance(&self, cells: [f64; 2], aligned: bool) -> DesignRecord {
         let align = if aligned { "boundary" } else { "none" };
         let record = [
             ("surface", self.name.into()),
-            ("cell", cell.into()),
+            ("cell", cells.to_vec().into()),
             ("align", align.into()),
             ("even", self.wishes.even.into()),
         ];
@@ -182,7 +190,8 @@ impl Search<'_> {
         watch: &mut dyn Watch,
     ) -> Result<(Designed, Attempt<'a>), PlanariseError> {
         let (mut missed, mut turned, mut no_net) = (Vec::new(), None, false);
-        let attempts = attempts(first);
+        let follows = !self.surface.lines().is_empty();
+        let attempts = attempts(first, follows);
         for (k, attempt) in attempts.iter().enumerate() {
             watch.progress("design", k, attempts.len());
             // What is joined at the boundary makes no net.
@@ -206,6 +215,9 @@ impl Search<'_> {
                         let turns = |turn_deg| ChainFinding::AlignmentTurns { turn_deg };
                         designed.findings.push(turned.map_or(given_up, turns).into());
                     }
+                    if follows && !attempt.follow {
+                        designed.findings.push(ChainFinding::FollowingGivenUp.into());
+                    }
                     return Ok((*designed, *attempt));
                 }
             }
@@ -215,20 +227,62 @@ impl Search<'_> {
         Err(PlanariseError::Refused(missed))
     }
 
+    /// Where the boundary alone asks for four nodes of three fins they come too near to it:
+    /// the most even of designs with them nearer to the middle.
+    fn gathered(
+        &self,
+        mut best: Designed,
+        attempt: Attempt,
+        watch: &mut dyn Watch,
+    ) -> Result<Designed, PlanariseError> {
+        let at = |node: &SingularNode| Point3::from(node.position);
+        let four: Vec<Point3> = best.figures.singular.iter().map(at).collect();
+        let all_three = best.figures.singular.iter().all(|node| node.valence == 3);
+        let wanted = attempt.align && attempt.singular.is_none() && all_three;
+        if !wanted || four.len() != 4 || best.figures.edge.in_band >= EVEN_ENOUGH {
+            return Ok(best);
+        }
+        let most = best.figures.axis_turn_deg.max + MORE_TURN_DEG;
+        let middle = four.iter().map(|p| p.coords / 4.0).sum::<Vector3>();
+        for share in NEARER {
+            let places: Vec<(Point3, usize)> = four
+                .iter()
+                .map(|p| (Point3::from(middle + (p.coords - middle) * share), 3))
+                .collect();
+            let Ok(singular) = self.given(&places) else { continue };
+            let attempt = Attempt { singular: Some(&singular), ..attempt };
+            if let Outcome::Sound(designed) = self.tried(attempt, watch)?
+                && designed.figures.axis_turn_deg.max <= most
+                && designed.figures.edge.in_band > best.figures.edge.in_band
+            {
+                best = *designed;
+            }
+        }
+        Ok(best)
+    }
+
     /// The most even of several designs whose axes do not turn too far.
     fn evened(
         &self,
         plain: Designed,
-        attempt: Attempt,
+        attempt: Attempt<'_>,
         watch: &mut dyn Watch,
     ) -> Result<Designed, PlanariseError> {
         let before = (plain.figures.edge.in_band, plain.figures.axis_turn_deg.max);
         let mut best = plain;
-        for [torsal, even] in EVENER {
+        let weighed = EVENER.map(|[torsal, even]| Attempt {
+            torsal: torsal * TORSAL,
+            even,
+            ..attempt
+        });
+        // Nothing singular at all, where the surface allows it.
+        let may_be_none =
+            attempt.singular.is_none() && !self.surface.boundary().is_empty();
+        let none = Attempt { singular: Some(&[]), ..attempt };
+        for attempt in weighed.into_iter().chain(may_be_none.then_some(none)) {
             if best.figures.edge.in_band >= EVEN_ENOUGH {
                 break;
             }
-            let attempt = Attempt { torsal: torsal * TORSAL, even, ..attempt };
             if let Outcome::Sound(designed) = self.tried(attempt, watch)?
                 && designed.figures.axis_turn_deg.max <= MOST_EVEN_TURN_DEG
                 && designed.figures.edge.in_band > best.figures.edge.in_band
@@ -249,7 +303,7 @@ impl Search<'_> {
         watch: &mut dyn Watch,
     ) -> Result<Designed, PlanariseError> {
         let (surface, wishes) = (self.surface, self.wishes);
-        let Meshed { quads, axes, directions, cell } = meshed;
+        let Meshed { quads, axes, directions, cell, aspect } = meshed;
         let nodes = quads.nodes.iter();
         let mut draft = Draft {
             name: self.name.to_owned(),
@@ -270,31 +324,37 @@ impl Search<'_> {
             options.target = DESIGNED_PLANAR;
             planarised = planarise(draft.clone(), &options, watch)?;
         }
-        let Planarised { draft: mut result, figures: planarised, findings, .. } =
+        let Planarised { draft: mut result, figures: planarised, mut findings, .. } =
             planarised;
+        let families = families(&result, aspect);
+        let wanted = [cell * aspect.sqrt(), cell / aspect.sqrt()];
         let judged = Judged {
             surface,
             axes: &axes,
             starts: quads.nodes.iter().map(|node| node.triangle).collect(),
             on_boundary: quads.nodes.iter().map(|node| node.rank > Rank::Inner).collect(),
             draft: &result,
-            wanted: cell,
+            wanted,
+            families: &families,
         };
         let figures = judged.figures(&planarised);
-        let families = families(&result.faces);
         let family = |fin: FinId| {
             let [a, b] = fin.ends().map(NodeId::index);
             families.get(&[a.min(b), a.max(b)]).copied().flatten()
         };
         result.families = Some(result.fin_ids().into_iter().map(family).collect());
-        result.design = Some(self.provenance(cell, aligned));
+        result.design = Some(self.provenance(wanted, aligned));
+        // Cells of one shape were asked for, or could be had.
+        if wishes.aspect.to_bits() != aspect.to_bits() {
+            findings.push(ChainFinding::CellsAlike { cell_mm: cell }.into());
+        }
         Ok(Designed { draft: result, before: draft, figures, findings, axes, directions })
     }
 }
 
 /// The ladder: smoother directions, then no alignment, then smaller cells, then more even
 /// ones.
-fn attempts(first: Attempt) -> Vec<Attempt> {
+fn attempts(first: Attempt, follows: bool) -> Vec<Attempt> {
     let mut attempts = vec![
         first,
         Attempt { short: LESS_SHORT, ..first },
@@ -308,5 +368,9 @@ fn attempts(first: Attempt) -> Vec<Attempt> {
     attempts.push(Attempt { torsal: TORSAL / 9.0, ..free });
     attempts.push(Attempt { cell: 0.8 * first.cell, ..free });
     attempts.push(Attempt { even: 3.0 * EVEN, torsal: TORSAL / 9.0, ..free });
+    if follows {
+        attempts.push(Attempt { follow: false, ..first });
+        attempts.push(Attempt { follow: false, ..free });
+    }
     attempts
 }

@@ -1,14 +1,34 @@
 //! The two families of fins, as far as they can be told apart.
 
 use crate::design::quads::sides;
+use crate::structure::Draft;
 use std::collections::BTreeMap;
 
 /// The family, 1 or 2, of each edge of a mesh, by its two nodes, the smaller first. Opposite
 /// sides of a quad are of one family, neighbouring ones are not; around a node of three or
 /// five fins that cannot hold, and edges that hang together with one have none.
 ///
-/// Family 1 is the one with more edges.
-pub(super) fn families(faces: &[Vec<usize>]) -> BTreeMap<[usize; 2], Option<u8>> {
+/// Family 1 is the one with more edges; where its edges are to be `aspect` times as long as
+/// those of the other, the one for which that is the more nearly so.
+pub(super) fn families(draft: &Draft, aspect: f64) -> BTreeMap<[usize; 2], Option<u8>> {
+    let mut families = by_count(&draft.faces);
+    let mut sums = [[0.0; 2]; 2];
+    for (&[a, b], family) in &families {
+        if let &Some(family) = family {
+            let sum = &mut sums[usize::from(family) - 1];
+            sum[0] += (draft.positions[a] - draft.positions[b]).norm();
+            sum[1] += 1.0;
+        }
+    }
+    let [first, second] = sums.map(|[length, count]| length / count);
+    // False where there is no family, for these are no numbers.
+    if (first / second > 1.0 && aspect < 1.0) || (first / second < 1.0 && aspect > 1.0) {
+        families.values_mut().flatten().for_each(|family| *family = 3 - *family);
+    }
+    families
+}
+
+fn by_count(faces: &[Vec<usize>]) -> BTreeMap<[usize; 2], Option<u8>> {
     let mut numbers: BTreeMap<[usize; 2], usize> = BTreeMap::new();
     for (a, b) in faces.iter().flat_map(|face| sides(face)) {
         let next = numbers.len();
@@ -63,11 +83,11 @@ mod tests {
     #[test]
     fn a_grid_has_two_families_and_a_node_of_three_none() {
         let grid = [vec![0, 1, 4, 3], vec![1, 2, 5, 4]];
-        let found = families(&grid);
+        let found = by_count(&grid);
         // Four edges along, three across: the larger family is the first.
         assert_eq!(found[&[0, 1]], Some(1));
         assert_eq!(found[&[1, 4]], Some(2));
         let three = [vec![0, 1, 2, 3], vec![0, 3, 4, 5], vec![0, 5, 6, 1]];
-        assert!(families(&three).values().all(Option::is_none));
+        assert!(by_count(&three).values().all(Option::is_none));
     }
 }

@@ -113,7 +113,10 @@ pub(super) struct Judged<'a> {
     pub starts: Vec<usize>,
     pub on_boundary: Vec<bool>,
     pub draft: &'a Draft,
-    pub wanted: f64,
+    /// Wanted lengths of fins in both families.
+    pub wanted: [f64; 2],
+    /// The family of each edge that has one.
+    pub families: &'a BTreeMap<[usize; 2], Option<u8>>,
 }
 
 impl Judged<'_> {
@@ -179,15 +182,19 @@ impl Judged<'_> {
 
     fn lengths(&self, edges: &BTreeMap<[usize; 2], usize>) -> Lengths {
         let inside = |edge: &&[usize; 2]| edge.iter().all(|&k| !self.on_boundary[k]);
+        let [wanted, second] = self.wanted;
+        // Lengths of the second family count as if they were of the first.
         let length = |&[a, b]: &[usize; 2]| {
-            (self.draft.positions[a] - self.draft.positions[b]).norm()
+            let is_second = self.families.get(&[a, b]) == Some(&Some(2));
+            let by = if is_second { wanted / second } else { 1.0 };
+            (self.draft.positions[a] - self.draft.positions[b]).norm() * by
         };
         let lengths: Vec<f64> = edges.keys().filter(inside).map(length).collect();
-        let [least, most] = BAND.map(|share| share * self.wanted);
+        let [least, most] = BAND.map(|share| share * wanted);
         let even =
             lengths.iter().filter(|length| (least..=most).contains(*length)).count();
         Lengths {
-            wanted: self.wanted,
+            wanted,
             p5: at(&lengths, 0.05),
             median: at(&lengths, 0.5),
             p95: at(&lengths, 0.95),

@@ -97,6 +97,39 @@ pub enum ChainFinding {
     )]
     AlignmentTurns { turn_deg: f64 },
 
+    #[error("fins do not follow the lines inside: with them there was no valid net")]
+    #[diagnostic(
+        code(design::following_given_up),
+        severity(Warning),
+        help(
+            "take smaller cells (--cell), or give fewer and smoother curves (--follow)"
+        )
+    )]
+    FollowingGivenUp,
+
+    #[error(
+        "curve {curve} of the file is not on the surface: it is shorter than a triangle"
+    )]
+    #[diagnostic(
+        code(design::curve_missed),
+        severity(Warning),
+        help("curves are in the surface's own units, and lie on it")
+    )]
+    CurveMissed { curve: usize },
+
+    #[error(
+        "the two families swap on a way around the surface, so that they cannot have lengths \
+         of their own: all fins are about {cell_mm:.1} mm long"
+    )]
+    #[diagnostic(
+        code(design::cells_alike),
+        severity(Warning),
+        help(
+            "ask for no nodes of three and five fins (--singular none), or for one length"
+        )
+    )]
+    CellsAlike { cell_mm: f64 },
+
     #[error(
         "({:.1}, {:.1}, {:.1}) is nearest to the vertex of another wanted node, or to none",
         at[0],

@@ -13,7 +13,6 @@ mod map;
 mod picture;
 pub mod planarise;
 mod quads;
-mod spd;
 pub mod surface;
 mod surfaces;
 mod wishes;

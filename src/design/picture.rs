@@ -67,7 +67,7 @@ fn directions(surface: &Surface, designed: &Designed, view: &Panel, pixels: &mut
 fn mesh(designed: &Designed, view: &Panel, pixels: &mut Pixmap) {
     let left = PANEL[0];
     let draft = &designed.draft;
-    for ([a, b], family) in families(&draft.faces) {
+    for ([a, b], family) in families(draft, 1.0) {
         let colour = match family {
             Some(1) => BLUE,
             Some(_) => ORANGE,

@@ -5,7 +5,7 @@ use crate::geometry::Point3;
 /// How cells are sized.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Size {
-    /// Wanted length of a fin, mm.
+    /// Wanted length of a fin, mm; of two families the geometric mean.
     Cell(f64),
     /// Wanted count of nodes; fins are as long as the side of a square with that share of
     /// the area.
@@ -47,6 +47,8 @@ pub enum SingularWish {
 pub struct Wishes {
     /// How large cells are.
     pub size: Size,
+    /// How many times as long fins of family 1 are as those of family 2.
+    pub aspect: f64,
     /// Whether fins run along the boundary.
     pub align: Align,
     /// How far fins reach below and above, mm; `None`: 0.35 of the wanted fin length.
@@ -57,4 +59,19 @@ pub struct Wishes {
     pub singular: SingularWish,
     /// Whether axes may turn for cells of even size.
     pub even: bool,
+}
+
+impl Default for Wishes {
+    /// About 700 nodes, cells trimmed at the boundary.
+    fn default() -> Self {
+        Self {
+            size: Size::Nodes(700),
+            aspect: 1.0,
+            align: Align::None,
+            depth: None,
+            boundary_fins: false,
+            singular: SingularWish::Auto,
+            even: false,
+        }
+    }
 }

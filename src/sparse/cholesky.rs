@@ -25,13 +25,14 @@ pub enum Ordering {
 /// number of matrices of the same pattern.
 ///
 /// ```
-/// use finwright::sparse::{Cholesky, Ordering, SymmetricMatrix};
+/// use finwright::sparse::{Cholesky, Triplets};
 ///
 /// // [2 -1; -1 2] x = [1, 4]
-/// let entries = [([0, 0], 2.0), ([1, 0], -1.0), ([1, 1], 2.0)];
-/// let matrix = SymmetricMatrix::from_entries(2, &entries);
-/// let mut factor = Cholesky::analysed(&matrix, Ordering::MinimumDegree).unwrap();
-/// factor.factorise(&matrix).unwrap();
+/// let mut triplets = Triplets::new(2);
+/// triplets.add_difference([0, 1], [1.0, 1.0], 1.0);
+/// triplets.add([0, 0], 1.0);
+/// triplets.add([1, 1], 1.0);
+/// let mut factor = Cholesky::of(&triplets.matrix()).unwrap();
 /// let mut x = [1.0, 4.0];
 /// factor.solve(&mut x);
 /// assert!((x[0] - 2.0).abs() < 1e-14 && (x[1] - 3.0).abs() < 1e-14);
@@ -42,7 +43,22 @@ pub struct Cholesky {
     scratch: MemBuffer,
 }
 
+/// Right-hand sides that are solved at once.
+const AT_ONCE: usize = 8;
+
 impl Cholesky {
+    /// The factor of one matrix, in the order of minimum degree.
+    ///
+    /// # Errors
+    /// [`NotPositiveDefinite`] if a pivot is not positive, or it is larger than memory can
+    /// hold.
+    pub fn of(matrix: &SymmetricMatrix) -> Result<Self, NotPositiveDefinite> {
+        let analysed = Self::analysed(matrix, Ordering::MinimumDegree);
+        let mut factor = analysed.ok_or(NotPositiveDefinite)?;
+        factor.factorise(matrix)?;
+        Ok(factor)
+    }
+
     /// Finds the pattern of the factor; `None` if it is larger than memory can hold. It
     /// cannot solve before the first call of [`factorise`](Self::factorise).
     pub fn analysed(matrix: &SymmetricMatrix, ordering: Ordering) -> Option<Self> {
@@ -63,7 +79,7 @@ impl Cholesky {
             factorize_symbolic_cholesky(pattern, Side::Upper, order, params).ok()?;
         let numeric =
             symbolic.factorize_numeric_llt_scratch::<f64>(Par::Seq, Default::default());
-        let solve = symbolic.solve_in_place_scratch::<f64>(1, Par::Seq);
+        let solve = symbolic.solve_in_place_scratch::<f64>(AT_ONCE, Par::Seq);
         let scratch = MemBuffer::try_new(numeric.or(solve)).ok()?;
         let values = vec![0.0; symbolic.len_val()];
         Some(Self { symbolic, values, scratch })
@@ -97,11 +113,12 @@ impl Cholesky {
     /// stand one after another.
     pub fn solve(&mut self, right: &mut [f64]) {
         let factor = LltRef::<'_, usize, f64>::new(&self.symbolic, &self.values);
-        for right in right.chunks_exact_mut(self.symbolic.nrows().max(1)) {
-            let rows = right.len();
+        let rows = self.symbolic.nrows().max(1);
+        for right in right.chunks_mut(AT_ONCE * rows) {
+            let count = right.len() / rows;
             factor.solve_in_place_with_conj(
                 Conj::No,
-                MatMut::from_column_major_slice_mut(right, rows, 1),
+                MatMut::from_column_major_slice_mut(right, rows, count),
                 Par::Seq,
                 MemStack::new(&mut self.scratch),
             );

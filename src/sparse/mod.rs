@@ -1,6 +1,6 @@
 //! Sparse symmetric systems: order of elimination, factor, solves, eigenvalues.
 //!
-//! In: a [`SymmetricMatrix`]. Out: a [`Cholesky`] factor, whose pattern is analysed once
+//! In: [`Triplets`], or a [`SymmetricMatrix`] made of them. Out: a [`Cholesky`] factor, whose pattern is analysed once
 //! and which takes any number of matrices and right-hand sides, on one thread. A complex
 //! system is a real one with two unknowns, `re` and `im`, for each.
 //!
@@ -15,7 +15,7 @@
 //!
 //! | file | what it does | source |
 //! |---|---|---|
-//! | `matrix` | compressed columns | |
+//! | `matrix` | triplets, compressed columns | |
 //! | `cholesky` | factor of a matrix in compressed columns | `faer` |
 //! | `ordering` | approximate minimum degree | Amestoy, Davis and Duff 1996 (`feral-amd`) |
 //! | `etree` | elimination tree, postorder | Liu 1986, 1990 |
@@ -46,7 +46,7 @@ mod tall;
 
 pub use cholesky::{Cholesky, Ordering};
 pub use error::NotPositiveDefinite;
-pub use matrix::SymmetricMatrix;
+pub use matrix::{SymmetricMatrix, Triplets};
 
 pub(crate) use block::{Block, orthonormalise, project_out};
 pub(crate) use error::Halt;

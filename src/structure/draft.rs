@@ -30,11 +30,11 @@ pub struct Draft {
     /// Family of the base mesh, 1 or 2, of each fin, in their order, where it can be told.
     pub families: Option<Vec<Option<u8>>>,
     /// Where it comes from, for the record.
-    pub design: Option<Provenance>,
+    pub design: Option<DesignRecord>,
 }
 
 /// Where a structure comes from: what its design was asked for, by name.
-pub type Provenance = serde_json::Map<String, Value>;
+pub type DesignRecord = serde_json::Map<String, Value>;
 
 /// What under [`Draft::design`] is a length, or a list of lengths.
 const LENGTHS: [&str; 2] = ["cell", "depth"];

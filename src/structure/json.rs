@@ -2,7 +2,7 @@
 
 use crate::geometry::{Point3, Vector3};
 use crate::ids::NodeId;
-use crate::structure::{AxisRule, Draft, Provenance, ReadError, ReadNote, Structure};
+use crate::structure::{AxisRule, DesignRecord, Draft, ReadError, ReadNote, Structure};
 use crate::units::Unit;
 use serde::de::{Deserializer, SeqAccess, Visitor};
 use serde::{Deserialize, Serialize};
@@ -47,7 +47,7 @@ struct File {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     families: Option<Vec<Option<u8>>>,
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    design: Option<Provenance>,
+    design: Option<DesignRecord>,
 }
 
 #[derive(Deserialize, Serialize)]

@@ -22,7 +22,7 @@ mod surface;
 
 pub use check::planarity;
 pub use crossing::FinTree;
-pub use draft::{Draft, Provenance, area_vector};
+pub use draft::{DesignRecord, Draft, area_vector};
 pub use finding::{FaceFault, StructureFinding};
 pub use json::{read_json, write_json};
 pub use node::{Arm, Node};
@@ -53,7 +53,7 @@ pub struct Structure {
     strips: Vec<Strip>,
     fixed: Vec<NodeId>,
     families: Option<Vec<Option<u8>>>,
-    design: Option<Provenance>,
+    design: Option<DesignRecord>,
 }
 
 /// A draft that is no structure.
@@ -158,7 +158,7 @@ impl Structure {
     }
 
     /// Where it comes from, if that was said.
-    pub const fn design(&self) -> Option<&Provenance> {
+    pub const fn design(&self) -> Option<&DesignRecord> {
         self.design.as_ref()
     }
 

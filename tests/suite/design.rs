@@ -9,8 +9,7 @@ use finwright::geometry::{Point3, Vector3, trig};
 use std::process::Command;
 
 fn wishes(size: Size, align: Align) -> Wishes {
-    let singular = SingularWish::Auto;
-    Wishes { size, align, depth: None, boundary_fins: false, singular, even: false }
+    Wishes { size, align, ..Wishes::default() }
 }
 
 fn surface(polygons: Polygons) -> Surface {
@@ -415,7 +414,7 @@ fn families_and_design_are_kept_by_planarise_and_make() {
     run("make b.json --scale 1:2 --effort quick --accept-flexible test -o job -q");
     let made = json(&here.join("job/structure.json"));
     assert_eq!(made["families"], given["families"]);
-    let cells = [&given, &made].map(|file| file["design"]["cell"].as_f64().unwrap());
+    let cells = [&given, &made].map(|file| file["design"]["cell"][0].as_f64().unwrap());
     assert!((cells[0] - 120.0).abs() < 1e-9 && (cells[1] - 60.0).abs() < 1e-9);
     let text = std::fs::read_to_string(here.join("a.json")).unwrap();
     let wrong = text.replacen("\"families\": [1,", "\"families\": [3,", 1);
@@ -466,4 +465,97 @@ fn nodes_of_three_and_five_fins_are_made_in_hubs() {
         .map(|n| n["valence"].as_u64().unwrap())
         .collect();
     assert!(valences.contains(&3) && valences.contains(&5), "{valences:?}");
+}
+
+#[test]
+fn fins_of_both_families_have_the_lengths_asked_for() {
+    let wave = surface(patch(30, 20, |x, y| 30.0 * trig::sin(x / 150.0 + y / 400.0)));
+    let long = Wishes {
+        size: Size::Cell((60.0_f64 * 30.0).sqrt()),
+        aspect: 2.0,
+        ..wishes(Size::Cell(40.0), Align::Boundary)
+    };
+    let draft = sound(&wave, &long).draft;
+    let families = draft.families.clone().unwrap();
+    for (family, wanted) in [(1, 60.0), (2, 30.0)] {
+        let own = draft.fin_ids().into_iter().zip(&families);
+        let own = own.filter(|(_, of)| **of == Some(family));
+        let mut lengths: Vec<f64> = own
+            .map(|(fin, _)| {
+                let [a, b] = fin.ends().map(|node| draft.positions[node]);
+                (a - b).norm()
+            })
+            .collect();
+        lengths.sort_by(f64::total_cmp);
+        let median = lengths[lengths.len() / 2];
+        assert!((median / wanted - 1.0).abs() < 0.1, "family {family}: {median}");
+    }
+}
+
+/// A roof of two slopes that meet in a crease at y = 160.
+fn folded_roof() -> Polygons {
+    patch(24, 16, |x, y| 200.0 - (y - 160.0).abs() + 10.0 * trig::sin(x / 160.0))
+}
+
+/// Fins with both ends on the plane y = `at`, and those that cross it.
+fn along_and_across(designed: &Designed, at: f64) -> [usize; 2] {
+    const NEAR: f64 = 0.5;
+    let draft = &designed.draft;
+    let side = |k: finwright::ids::NodeId| draft.positions[k].y - at;
+    let ends = || draft.fin_ids().into_iter().map(|fin| fin.ends().map(side));
+    let along = ends().filter(|ends| ends.iter().all(|y| y.abs() < NEAR)).count();
+    let across = |[a, b]: &[f64; 2]| a.min(*b) < -NEAR && a.max(*b) > NEAR;
+    [along, ends().filter(across).count()]
+}
+
+#[test]
+fn no_fin_crosses_a_crease_that_is_followed() {
+    let folded = surface(folded_roof());
+    let plain = sound(&folded, &wishes(Size::Cell(40.0), Align::None));
+    assert!(along_and_across(&plain, 160.0)[1] > 0);
+    let folded = folded.following_creases(100.0);
+    for align in [Align::None, Align::Boundary] {
+        let designed = sound(&folded, &wishes(Size::Cell(40.0), align));
+        let [along, across] = along_and_across(&designed, 160.0);
+        assert!(across == 0 && along >= 10, "{align:?}: {along} along, {across} across");
+        let off = designed.figures.surface_distance.max;
+        assert!(off <= 0.01 * designed.figures.edge.wanted, "{align:?}: {off}");
+    }
+}
+
+#[test]
+fn fins_run_along_every_piece_of_a_curve_that_is_given() {
+    let hill = surface(patch(24, 16, |x, y| 40.0 * trig::sin((x + y) / 150.0)));
+    let height = |x: f64, y: f64| Point3::new(x, y, 40.0 * trig::sin((x + y) / 150.0));
+    // Between lines of the grid, and a little oblique.
+    let at = |x: f64| height(x, 150.0 + 0.05 * x);
+    let curve: Vec<Point3> = (2..=22).map(|k| at(20.0 * f64::from(k))).collect();
+    let (followed, missed) = hill.following(std::slice::from_ref(&curve));
+    assert!(missed.is_empty());
+    let designed = sound(&followed, &wishes(Size::Cell(40.0), Align::None));
+    let draft = &designed.draft;
+    for middle in curve.windows(2).map(|ends| nalgebra::center(&ends[0], &ends[1])) {
+        let near = |fin: finwright::ids::FinId| {
+            let [a, b] = fin.ends().map(|node| draft.positions[node]);
+            let along = b - a;
+            let share = (middle - a).dot(&along) / along.norm_squared();
+            (a + along * share.clamp(0.0, 1.0) - middle).norm()
+        };
+        let nearest = draft.fin_ids().into_iter().map(near).fold(f64::INFINITY, f64::min);
+        assert!(nearest < 4.0, "{nearest} mm from {middle}");
+    }
+}
+
+#[test]
+fn a_disk_follows_its_rim_with_even_cells() {
+    // Squares drawn out to a circle, so that triangles lead nowhere in particular.
+    let mut polygons = patch(24, 24, |_, _| 0.0);
+    for p in &mut polygons.positions {
+        let (x, y) = (p.x / 240.0 - 1.0, p.y / 240.0 - 1.0);
+        let (u, v) = (x * (1.0 - y * y / 2.0).sqrt(), y * (1.0 - x * x / 2.0).sqrt());
+        *p = Point3::new(240.0 * u, 240.0 * v, 0.0);
+    }
+    let disk = surface(polygons);
+    let designed = sound(&disk, &wishes(Size::Nodes(300), Align::Boundary));
+    assert!(designed.figures.edge.in_band >= 0.75, "{:?}", designed.figures.edge);
 }

@@ -1,6 +1,6 @@
 //! `design`.
 
-use crate::cli::flags::value::{axis_rule, depth, fix, length};
+use crate::cli::flags::value::{axis_rule, cell, depth, fix};
 use crate::job::{Depth, Fix};
 use crate::structure::AxisRule;
 use crate::units::Unit;
@@ -46,9 +46,10 @@ pub struct DesignArgs {
     #[arg(long, default_value = "vn", value_parser = axis_rule, allow_hyphen_values = true)]
     pub axes: AxisRule,
 
-    /// Wanted length of a fin, in mm of the surface
-    #[arg(long, value_parser = length, value_name = "MM", conflicts_with = "nodes")]
-    pub cell: Option<f64>,
+    /// Wanted length of a fin, in mm of the surface; of two, the first is of fins that run more
+    /// along the surface's longest extent (family 1)
+    #[arg(long, value_parser = cell, value_name = "MM[,MM]", conflicts_with = "nodes")]
+    pub cell: Option<[f64; 2]>,
 
     /// Wanted number of nodes, met within a tenth [default without --cell: 700]
     #[arg(long, value_name = "N")]
@@ -57,6 +58,11 @@ pub struct DesignArgs {
     /// Whether fins run along the boundary
     #[arg(long, value_enum, default_value = "none")]
     pub align: AlignWhen,
+
+    /// Lines inside that fins follow: auto for creases, or an OBJ file with polylines (`l`), in
+    /// the surface's units
+    #[arg(long, value_name = "auto|FILE")]
+    pub follow: Option<String>,
 
     /// Nodes inside with other than four fins: auto, none, or a file with a line X Y Z FINS for
     /// each, in the surface's units

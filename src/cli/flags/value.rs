@@ -112,6 +112,15 @@ pub(super) fn length(text: &str) -> Result<f64, String> {
     }
 }
 
+/// One length for both, or two.
+pub(super) fn cell(text: &str) -> Result<[f64; 2], String> {
+    let (first, second) = text.split_once(',').unwrap_or((text, text));
+    match (length(first)?, length(second)?) {
+        (first, second) if first > 0.0 && second > 0.0 => Ok([first, second]),
+        _ => Err(format!("{text:?} is no cell; write 40, or 60,40")),
+    }
+}
+
 pub(super) fn size(text: &str) -> Result<[f64; 2], String> {
     let wrong = || format!("{text:?} is no size; write 600x400 for 600 by 400 mm");
     let (width, height) = text.split_once('x').ok_or_else(wrong)?;

@@ -4,9 +4,9 @@
 //! An approach to quad meshing based on harmonic cross-valued maps).
 
 use crate::design::directions::{Congruence, Wish};
-use crate::design::spd::{Entries, Factor, NotDefinite};
 use crate::design::surface::{Measures, Surface};
 use crate::geometry::trig;
+use crate::sparse::{Cholesky, NotPositiveDefinite, SymmetricMatrix, Triplets};
 
 /// Weight of an aligned boundary.
 const BOUNDARY: f64 = 5.0;
@@ -21,7 +21,7 @@ pub(super) fn field(
     measures: &Measures,
     congruence: &Congruence,
     wish: &Wish,
-) -> Result<Vec<f64>, NotDefinite> {
+) -> Result<Vec<f64>, NotPositiveDefinite> {
     let count = surface.triangles.len();
     let mean_area = measures.area() / count as f64;
     let torsal = wish.torsal * mean_area / (wish.cell * wish.cell);
@@ -41,14 +41,26 @@ pub(super) fn field(
             }
         }
     }
-    let first = solved(surface, measures, &goals)?;
-    for (triangle, y) in first.iter().enumerate() {
+    if wish.follow {
+        for side in surface.lines().into_iter().flat_map(|line| line.sides) {
+            for side in [Some(side), surface.twin(side)].into_iter().flatten() {
+                let more = goal(BOUNDARY, measures.directions[side]);
+                (0..3).for_each(|k| goals[side / 3][k] += more[k]);
+            }
+        }
+    }
+    let (matrix, mut crosses) = system(surface, measures, &goals);
+    let mut factor = Cholesky::of(&matrix)?;
+    factor.solve(&mut crosses);
+    for (triangle, y) in crosses.chunks_exact(2).enumerate() {
         let weight = UNIT_LENGTH * share(triangle);
         let more = goal(weight, trig::atan2(y[1], y[0]) / 4.0);
         (0..3).for_each(|k| goals[triangle][k] += more[k]);
     }
-    let crosses = solved(surface, measures, &goals)?;
-    Ok(crosses.iter().map(|y| trig::atan2(y[1], y[0]) / 4.0).collect())
+    let (matrix, mut crosses) = system(surface, measures, &goals);
+    factor.factorise(&matrix)?;
+    factor.solve(&mut crosses);
+    Ok(crosses.chunks_exact(2).map(|y| trig::atan2(y[1], y[0]) / 4.0).collect())
 }
 
 /// A wish for a direction: its weight, and the weight times `y`.
@@ -56,17 +68,18 @@ fn goal(weight: f64, theta: f64) -> [f64; 3] {
     [weight, weight * trig::cos(4.0 * theta), weight * trig::sin(4.0 * theta)]
 }
 
-fn solved(
+/// The equations of smooth crosses near their goals: real and imaginary part of each.
+fn system(
     surface: &Surface,
     measures: &Measures,
     goals: &[[f64; 3]],
-) -> Result<Vec<[f64; 2]>, NotDefinite> {
-    let mut system = Entries::new(2 * goals.len());
+) -> (SymmetricMatrix, Vec<f64>) {
+    let mut system = Triplets::new(2 * goals.len());
     let mut right = vec![0.0; 2 * goals.len()];
     for (triangle, goal) in goals.iter().enumerate() {
         for k in 0..2 {
             let row = 2 * triangle + k;
-            system.add(row, row, goal[0] + crate::tolerance::LEAST_GOAL);
+            system.add([row, row], goal[0] + crate::tolerance::LEAST_GOAL);
             right[row] = goal[1 + k];
         }
     }
@@ -75,16 +88,15 @@ fn solved(
         let (weight, turn) = (measures.couplings[side], 4.0 * measures.transports[side]);
         let (f, g) = (2 * (side / 3), 2 * (twin / 3));
         for k in 0..2 {
-            system.add(f + k, f + k, weight);
-            system.add(g + k, g + k, weight);
-            system.add(g + k, f + k, -weight * trig::cos(turn));
+            system.add([f + k, f + k], weight);
+            system.add([g + k, g + k], weight);
+            system.add([g + k, f + k], -weight * trig::cos(turn));
         }
         // Real and imaginary part of y_f e^{i turn} against those of y_g.
-        system.add(g, f + 1, weight * trig::sin(turn));
-        system.add(g + 1, f, -weight * trig::sin(turn));
+        system.add([g, f + 1], weight * trig::sin(turn));
+        system.add([g + 1, f], -weight * trig::sin(turn));
     }
-    Factor::new(&system)?.solve(&mut right);
-    Ok(right.chunks_exact(2).map(|y| [y[0], y[1]]).collect())
+    (system.matrix(), right)
 }
 
 /// The half-edges of the boundary, each with whether the boundary runs on straight enough

@@ -18,9 +18,9 @@ pub(super) use congruence::Congruence;
 pub(super) use cross::boundary_turn;
 pub(super) use singular::{Singular, singular};
 
-use crate::design::spd::NotDefinite;
 use crate::design::surface::{Measures, Surface};
 use crate::geometry::{Vector2, Vector3, trig};
+use crate::sparse::NotPositiveDefinite;
 use std::f64::consts::FRAC_PI_2;
 
 /// How directions are sought.
@@ -33,6 +33,8 @@ pub(super) struct Wish<'a> {
     pub torsal: f64,
     /// Whether directions follow the boundary.
     pub align: bool,
+    /// Whether they follow the lines inside.
+    pub follow: bool,
     /// Where singular vertices have to be; `None`: where they come.
     pub singular: Option<&'a [Singular]>,
 }
@@ -53,16 +55,18 @@ impl Directions {
     /// Smooth directions near the torsal ones of `axes`.
     ///
     /// # Errors
-    /// [`NotDefinite`] if a system cannot be factored.
+    /// [`NotPositiveDefinite`] if a system cannot be factored.
     pub(super) fn of(
         surface: &Surface,
         measures: &Measures,
         axes: &[Vector3],
         wish: &Wish,
-    ) -> Result<Self, NotDefinite> {
+    ) -> Result<Self, NotPositiveDefinite> {
         let congruence = Congruence::of(surface, measures, axes);
         let theta = match wish.singular {
-            Some(given) => prescribed::field(surface, measures, &congruence, given)?,
+            Some(given) => {
+                prescribed::field(surface, measures, &congruence, given, wish.align)?
+            }
             None => cross::field(surface, measures, &congruence, wish)?,
         };
         let quarters = (0..surface.side_count())

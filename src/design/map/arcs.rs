@@ -1,21 +1,21 @@
-//! Pieces of the boundary along which one coordinate is a whole number.
+//! Pieces of the boundary, and of lines inside, along which one coordinate is a whole number.
 
 use crate::design::directions::Directions;
 use crate::design::map::cut::Cut;
-use crate::design::surface::{Measures, Surface, next, previous};
+use crate::design::surface::{Line, Measures, Surface, next, previous};
 use std::f64::consts::FRAC_PI_2;
 
-/// A piece of the boundary in one chart: corners with the coordinate that is the same whole
+/// A piece of a line in one chart: corners with the coordinate that is the same whole
 /// number at all of them.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(super) struct Arc {
     pub corners: Vec<(usize, usize)>,
 }
 
-/// A boundary that misses the directions by more than this, radians, is not aligned.
+/// A line that misses the directions by more than this, radians, is not followed.
 const MOST_MISFIT: f64 = 20.0 * std::f64::consts::PI / 180.0;
 
-/// A boundary edge with the direction in which it runs, in quarters of its chart, and how
+/// An edge with the direction in which it runs, in quarters of its chart, and how
 /// far it misses that.
 struct Edge {
     side: usize,
@@ -26,16 +26,17 @@ struct Edge {
     same_chart: bool,
 }
 
-/// The pieces of all boundary loops.
+/// The pieces of lines; the surface is to the left of boundary loops.
 pub(super) fn arcs(
     surface: &Surface,
     measures: &Measures,
     directions: &Directions,
     cut: &Cut,
+    lines: &[Line],
 ) -> Vec<Arc> {
     let mut arcs = Vec::new();
-    for ring in surface.boundary() {
-        let edges = edges(surface, measures, directions, cut, &ring);
+    for line in lines {
+        let edges = edges(surface, measures, directions, cut, line);
         let count = edges.len();
         // Begin where a piece does.
         let first = (0..count).find(|&k| !edges[(k + count - 1) % count].straight);
@@ -69,7 +70,7 @@ fn edges(
     measures: &Measures,
     directions: &Directions,
     cut: &Cut,
-    ring: &[usize],
+    line: &Line,
 ) -> Vec<Edge> {
     let run = |side: usize| {
         let triangle = side / 3;
@@ -79,16 +80,27 @@ fn edges(
         let nearest = turn.round();
         ((nearest as i32).rem_euclid(4), (turn - nearest).abs() * FRAC_PI_2)
     };
-    let onward = ring.iter().cycle().skip(1);
-    ring.iter()
+    let onward = line.sides.iter().cycle().skip(1);
+    line.sides
+        .iter()
         .zip(onward)
-        .map(|(&side, &after)| {
+        .enumerate()
+        .map(|(k, (&side, &after))| {
             let (quarters, misfit) = run(side);
+            if k + 1 == line.sides.len() && !line.closed {
+                return Edge {
+                    side,
+                    quarters,
+                    misfit,
+                    straight: false,
+                    same_chart: true,
+                };
+            }
             // Counter-clockwise around the vertex between, from the edge after.
             let over: Vec<usize> = surface
-                .fan(surface.tail(after))
+                .fan_from(after)
                 .map(previous)
-                .filter(|&over| !surface.is_boundary(over))
+                .take_while(|&over| over != side)
                 .collect();
             let turn: i32 = over.iter().map(|&over| cut.quarters[over]).sum();
             let straight = (run(after).0 + turn - quarters).rem_euclid(4) == 0;

@@ -16,8 +16,9 @@ mod poisson;
 pub(super) use cut::Cut;
 
 use crate::design::directions::{Directions, Singular};
-use crate::design::spd::NotDefinite;
-use crate::design::surface::{Measures, Surface};
+use crate::design::surface::{Line, Measures, Surface};
+use crate::geometry::{Vector2, Vector3};
+use crate::sparse::NotPositiveDefinite;
 use copies::Copies;
 use poisson::Poisson;
 
@@ -32,12 +33,16 @@ const STIFFER: f64 = 4.0;
 /// How a map is sought.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Wish {
-    /// Wanted length of a fin, mm.
+    /// Wanted length of a fin, mm; of two families the geometric mean.
     pub cell: f64,
+    /// How many times as long fins of family 1 are as those of family 2.
+    pub aspect: f64,
     /// How much even spacing weighs beside true directions.
     pub even: f64,
     /// Whether lines run along the boundary.
     pub align: bool,
+    /// Whether they run along the lines inside.
+    pub follow: bool,
 }
 
 /// A seamless map.
@@ -49,6 +54,8 @@ pub(super) struct Map {
     pub cut: Cut,
     /// Triangles that are turned over or have no area in the map.
     pub flipped: Vec<usize>,
+    /// Ratio of the lengths in both families: 1 where they cannot be told apart.
+    pub aspect: f64,
 }
 
 /// Why there is no map.
@@ -62,8 +69,8 @@ pub(super) enum Failure {
     TooManyIntegers(usize),
 }
 
-impl From<NotDefinite> for Failure {
-    fn from(_: NotDefinite) -> Self {
+impl From<NotPositiveDefinite> for Failure {
+    fn from(_: NotPositiveDefinite) -> Self {
         Self::NotDefinite
     }
 }
@@ -84,21 +91,26 @@ pub(super) fn map(
     wish: &Wish,
 ) -> Result<Map, Failure> {
     let cut = Cut::of(surface, measures, directions, singular);
-    let arcs = if wish.align {
-        arcs::arcs(surface, measures, directions, &cut)
-    } else {
-        Vec::new()
-    };
+    let mut lines = if wish.follow { surface.lines() } else { Vec::new() };
+    if wish.align {
+        let rings = surface.boundary().into_iter();
+        lines.extend(rings.map(|sides| Line { sides, closed: true }));
+    }
+    let arcs = arcs::arcs(surface, measures, directions, &cut, &lines);
     let copies = Copies::of(surface, &cut, singular, &arcs)?;
     if copies.integers > MOST_INTEGERS {
         return Err(Failure::TooManyIntegers(copies.integers));
     }
-    let pairs =
+    let pairs: Vec<[Vector2; 2]> =
         (0..surface.triangles.len()).map(|k| directions.pair(k, cut.turns[k])).collect();
-    let mut poisson = Poisson::new(surface, measures, pairs, &copies, wish);
+    // Over an odd number of quarters the families swap.
+    let apart = cut.quarters.iter().all(|quarters| quarters % 2 == 0);
+    let aspect = if apart { wish.aspect } else { 1.0 };
+    let cells = cells(surface, measures, &pairs, wish.cell, aspect);
+    let mut poisson = Poisson::new(surface, measures, pairs, &copies, wish.even, cells);
     poisson.factor()?;
     poisson.space()?;
-    let mut whole = integers::rounded(&poisson.schur, &poisson.pull());
+    let mut whole = integers::rounded(&poisson.schur, &poisson.pull);
     integers::repaired(&poisson, &mut whole);
     let mut map = exact(&copies, &poisson.solution(&whole), &whole);
     for _ in 0..STIFFENINGS {
@@ -112,7 +124,32 @@ pub(super) fn map(
         map = exact(&copies, &poisson.solution(&whole), &whole);
     }
     let flipped = flipped(&map);
-    Ok(Map { corners: map, cut, flipped })
+    Ok(Map { corners: map, cut, flipped, aspect })
+}
+
+/// Wanted lengths of fins along both directions: family 1 is that which runs the more along
+/// the surface's longest extent.
+fn cells(
+    surface: &Surface,
+    measures: &Measures,
+    pairs: &[[Vector2; 2]],
+    cell: f64,
+    aspect: f64,
+) -> [f64; 2] {
+    let count = surface.positions.len() as f64;
+    let middle = surface.positions.iter().map(|p| p.coords / count).sum::<Vector3>();
+    let spread = surface.positions.iter().map(|p| p.coords - middle);
+    let spread: nalgebra::Matrix3<f64> = spread.map(|p| p * p.transpose()).sum();
+    let mut along = [0.0; 2];
+    for (triangle, pair) in pairs.iter().enumerate() {
+        let [x, y, _] = measures.frames[triangle];
+        for (along, d) in along.iter_mut().zip(pair) {
+            let d = x * d.x + y * d.y;
+            *along += measures.areas[triangle] * d.dot(&(spread * d));
+        }
+    }
+    let [first, second] = [cell * aspect.sqrt(), cell / aspect.sqrt()];
+    if along[0] >= along[1] { [first, second] } else { [second, first] }
 }
 
 /// Exact coordinates of all corners. Every free coordinate becomes an odd number of steps,

@@ -6,11 +6,11 @@
 //! normal equations are `[Hcc Hci; Hic Hii]`; with `X = Hcc⁻¹ Hci` the whole numbers see the
 //! dense `S = Hii − Hic X` alone.
 
+use crate::design::map::Failure;
 use crate::design::map::copies::{Copies, Term, Unknown};
-use crate::design::map::{Failure, Wish};
-use crate::design::spd::{Entries, Factor};
 use crate::design::surface::{Measures, Surface, next};
 use crate::geometry::Vector2;
+use crate::sparse::{Cholesky, Triplets};
 use crate::tolerance::PINNED;
 use nalgebra::{DMatrix, DVector};
 
@@ -23,7 +23,8 @@ pub(super) struct Poisson<'a> {
     surface: &'a Surface,
     measures: &'a Measures,
     copies: &'a Copies,
-    cell: f64,
+    /// Wanted lengths of fins along both directions.
+    cells: [f64; 2],
     even: f64,
     /// Both directions of each triangle, in its frame.
     pairs: Vec<[Vector2; 2]>,
@@ -31,13 +32,17 @@ pub(super) struct Poisson<'a> {
     spacing: Vec<[f64; 2]>,
     /// How stiff each triangle is.
     stiffness: Vec<f64>,
-    factor: Option<Factor>,
+    factor: Option<Cholesky>,
     /// Hci by columns, sparse.
     couplings: Vec<Vec<(usize, f64)>>,
     /// X by columns.
     carried: Vec<f64>,
     /// S.
     pub schur: DMatrix<f64>,
+    /// Right side of the whole numbers, `S x = pull`.
+    pub pull: DVector<f64>,
+    /// The continuous unknowns where all whole numbers are 0.
+    loaded: Vec<f64>,
 }
 
 impl<'a> Poisson<'a> {
@@ -46,22 +51,25 @@ impl<'a> Poisson<'a> {
         measures: &'a Measures,
         pairs: Vec<[Vector2; 2]>,
         copies: &'a Copies,
-        wish: &Wish,
+        even: f64,
+        cells: [f64; 2],
     ) -> Self {
         let count = surface.triangles.len();
         Self {
             surface,
             measures,
             copies,
-            cell: wish.cell,
-            even: wish.even,
+            cells,
+            even,
             pairs,
-            spacing: vec![[1.0 / wish.cell; 2]; count],
+            spacing: vec![cells.map(|cell| 1.0 / cell); count],
             stiffness: vec![1.0; count],
             factor: None,
             couplings: Vec::new(),
             carried: Vec::new(),
             schur: DMatrix::zeros(0, 0),
+            pull: DVector::zeros(0),
+            loaded: Vec::new(),
         }
     }
 
@@ -79,14 +87,14 @@ impl<'a> Poisson<'a> {
     /// Assembles and factors; right sides are not needed for that.
     pub(super) fn factor(&mut self) -> Result<(), Failure> {
         let (free, whole) = (self.copies.continuous, self.copies.integers);
-        let mut system = Entries::new(free);
+        let mut system = Triplets::new(free);
         let mut couplings = vec![Vec::new(); whole];
         let mut schur = DMatrix::zeros(whole, whole);
         for triangle in 0..self.surface.triangles.len() {
             for k in 0..2 {
                 self.assemble(triangle, k, &mut |a, b, value| match (a, b) {
                     (Unknown::Continuous(a), Unknown::Continuous(b)) => {
-                        system.add(a, b, value);
+                        system.add([a, b], value);
                     }
                     (Unknown::Continuous(a), Unknown::Integer(b))
                     | (Unknown::Integer(b), Unknown::Continuous(a)) => {
@@ -103,11 +111,12 @@ impl<'a> Poisson<'a> {
         }
         // A map that nothing pins has its mean at 0.
         let pin = PINNED * self.even;
-        (0..free).for_each(|k| system.add(k, k, pin));
+        (0..free).for_each(|k| system.add([k, k], pin));
         (0..whole).for_each(|k| schur[(k, k)] += pin);
+        let matrix = system.matrix();
         match &mut self.factor {
-            Some(factor) => factor.refactor(&system)?,
-            none => *none = Some(Factor::new(&system)?),
+            Some(factor) => factor.factorise(&matrix)?,
+            none => *none = Some(Cholesky::of(&matrix)?),
         }
         let mut carried = vec![0.0; free * whole];
         for (j, column) in couplings.iter().enumerate() {
@@ -123,11 +132,12 @@ impl<'a> Poisson<'a> {
         }
         self.couplings = couplings;
         self.schur = schur;
+        self.load();
         Ok(())
     }
 
-    fn solve(&self, right: &mut [f64]) {
-        if let Some(factor) = &self.factor {
+    fn solve(&mut self, right: &mut [f64]) {
+        if let Some(factor) = &mut self.factor {
             factor.solve(right);
         }
     }
@@ -194,20 +204,19 @@ impl<'a> Poisson<'a> {
         (free, whole)
     }
 
-    /// What the whole numbers are pulled with: the right side of `S x = r`.
-    pub(super) fn pull(&self) -> DVector<f64> {
+    /// Takes in the wanted spacing: right sides, and what the continuous ones lead to.
+    fn load(&mut self) {
         let (mut free, mut whole) = self.right();
         self.solve(&mut free);
         for (pull, column) in whole.iter_mut().zip(&self.couplings) {
             *pull -= column.iter().map(|&(row, value)| value * free[row]).sum::<f64>();
         }
-        whole
+        (self.loaded, self.pull) = (free, whole);
     }
 
     /// The continuous unknowns for these numbers in the place of the whole ones.
     fn continuous(&self, whole: &[f64]) -> Vec<f64> {
-        let (mut free, _) = self.right();
-        self.solve(&mut free);
+        let mut free = self.loaded.clone();
         for (j, x) in whole.iter().enumerate() {
             let carried = self.column(j);
             free.iter_mut().zip(carried).for_each(|(free, by)| *free -= by * x);
@@ -242,8 +251,7 @@ impl<'a> Poisson<'a> {
     /// Lets the wanted spacing follow the map, within bounds.
     pub(super) fn space(&mut self) -> Result<(), Failure> {
         for _ in 0..ROUNDS {
-            let relaxed =
-                relaxed(&self.schur, &self.pull()).ok_or(Failure::NotDefinite)?;
+            let relaxed = relaxed(&self.schur, &self.pull).ok_or(Failure::NotDefinite)?;
             let free = self.continuous(relaxed.as_slice());
             let values = self.values(&free, relaxed.as_slice());
             let (mut sum, mut spacing) = (0.0, Vec::with_capacity(self.spacing.len()));
@@ -256,15 +264,17 @@ impl<'a> Poisson<'a> {
                         })
                         .sum();
                     let across = slope.dot(&self.axes(triangle, k)[1]);
-                    across
-                        .clamp(1.0 / (WIDEST * self.cell), 1.0 / (NARROWEST * self.cell))
+                    let cell = self.cells[k];
+                    across.clamp(1.0 / (WIDEST * cell), 1.0 / (NARROWEST * cell))
                 });
-                sum += self.measures.areas[triangle] * (own[0] + own[1]) / 2.0;
+                let mean = (own[0] * self.cells[0] + own[1] * self.cells[1]) / 2.0;
+                sum += self.measures.areas[triangle] * mean;
                 spacing.push(own);
             }
-            let scale = self.measures.area() / (self.cell * sum);
+            let scale = self.measures.area() / sum;
             self.spacing =
                 spacing.into_iter().map(|own| own.map(|s| s * scale)).collect();
+            self.load();
         }
         Ok(())
     }

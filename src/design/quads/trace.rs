@@ -64,7 +64,8 @@ fn follow(charts: &Charts, net: &Net, mut line: Line) -> Option<End> {
         }
         let corners = charts.corners(line.triangle);
         let left = corners.map(|at| cross(d, minus(at, line.from)));
-        let exit = (0..3).find(|&k| left[k] < 0 && left[(k + 1) % 3] > 0)?;
+        // A vertex on the line, where an edge is followed, counts as to the left.
+        let exit = (0..3).find(|&k| left[k] < 0 && left[(k + 1) % 3] >= 0)?;
         let side = 3 * line.triangle + exit;
         if charts.surface.is_boundary(side) {
             let (from, to) = (left[exit], left[(exit + 1) % 3]);
@@ -75,16 +76,21 @@ fn follow(charts: &Charts, net: &Net, mut line: Line) -> Option<End> {
     None
 }
 
-/// A line that begins on a side and leads out of its triangle begins beyond.
+/// A line that begins on a side and leads out of its triangle begins beyond; one along a
+/// side is taken to run a little to the right of it.
 fn started(charts: &Charts, line: Line) -> Line {
     let sides = charts.sides(line.triangle, line.from);
-    let on: Vec<usize> = (0..3).filter(|&k| sides[k] == 0).collect();
-    let [k] = on[..] else { return line };
-    let side = 3 * line.triangle + k;
-    if cross(charts.along(side), way(line.way)) < 0 {
-        crossed(charts, line, side).unwrap_or(line)
-    } else {
-        line
+    let (d, on) = (way(line.way), (0..3).filter(|&k| sides[k] == 0));
+    let leads_out = |&side: &usize| {
+        let along = charts.along(side);
+        let turn = cross(along, d);
+        let same_way = along[0].signum() * d[0] + along[1].signum() * d[1] > 0;
+        turn < 0 || (turn == 0 && same_way)
+    };
+    let mut out = on.map(|k| 3 * line.triangle + k).filter(leads_out);
+    match (out.next(), out.next()) {
+        (Some(side), None) => crossed(charts, line, side).unwrap_or(line),
+        _ => line,
     }
 }
 

@@ -1,17 +1,22 @@
-//! Inner edges from boundary to boundary are split: a triangle with all three corners on
-//! one aligned piece of the boundary would have no area in the map.
+//! Inner edges between two vertices of the boundary, or of lines that fins follow, are
+//! split: a triangle with all three corners on one line would have no area in the map.
 
 use crate::design::surface::Surface;
 use crate::geometry::Vector3;
 
 impl Surface {
-    /// The same with every inner edge split whose both ends lie on the boundary.
+    /// The same with every inner edge split whose both ends lie on the boundary or on a
+    /// line.
     pub(super) fn without_ears(self) -> Self {
+        let mut on_line: Vec<bool> =
+            (0..self.positions.len()).map(|vertex| self.on_boundary(vertex)).collect();
+        self.followed.iter().flatten().for_each(|&vertex| on_line[vertex] = true);
         let ears: Vec<usize> = (0..self.side_count())
             .filter(|&side| {
                 let ends = [self.tail(side), self.tip(side)];
                 self.twin(side).is_some_and(|twin| side < twin)
-                    && ends.iter().all(|&vertex| self.on_boundary(vertex))
+                    && ends.iter().all(|&vertex| on_line[vertex])
+                    && !self.is_followed(side)
             })
             .collect();
         if ears.is_empty() {
@@ -35,7 +40,8 @@ impl Surface {
         };
         let triangles = (0..self.triangles.len()).flat_map(split).collect();
         // New vertices lie inside, but an ear may have had both its inner sides split.
-        Self::new(positions, triangles, axes)
+        let lines = self.followed;
+        Self::new(positions, triangles, axes).with_lines(lines)
     }
 }
 

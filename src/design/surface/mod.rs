@@ -10,6 +10,7 @@ mod ears;
 mod faults;
 mod finding;
 mod foot;
+mod lines;
 mod measure;
 mod ply;
 mod stl;
@@ -17,12 +18,14 @@ mod stl;
 pub use clean::{Polygons, clean};
 pub use finding::{FormatError, SurfaceFinding};
 pub use foot::Foot;
+pub use lines::Line;
 pub use measure::Measures;
 pub use ply::read_ply;
 pub use stl::read_stl;
 
 use crate::geometry::{Point3, Vector3};
 use crate::structure::area_vector;
+use std::collections::BTreeSet;
 
 /// Cosine of the angle between neighbours from which on they are folded: 150°.
 const FOLDED: f64 = -0.866;
@@ -47,6 +50,8 @@ pub struct Surface {
     twins: Vec<usize>,
     /// A half-edge that leaves each vertex, on the boundary the first of its fan.
     first: Vec<usize>,
+    /// Inner edges that fins are to follow, by their vertices.
+    followed: BTreeSet<[usize; 2]>,
 }
 
 impl Surface {
@@ -64,7 +69,25 @@ impl Surface {
                 first[tail] = side;
             }
         }
-        Self { positions, triangles, axes, twins, first }
+        Self { positions, triangles, axes, twins, first, followed: BTreeSet::new() }
+    }
+
+    /// The same with fins to follow the inner ones of these edges.
+    fn with_lines(self, edges: BTreeSet<[usize; 2]>) -> Self {
+        Self { followed: edges, ..self }
+    }
+
+    /// Whether fins are to follow a half-edge.
+    pub(in crate::design) fn is_followed(&self, side: usize) -> bool {
+        !self.followed.is_empty()
+            && !self.is_boundary(side)
+            && self.followed.contains(&self.ends(side))
+    }
+
+    /// Both vertices of the edge of a half-edge, the smaller first.
+    fn ends(&self, side: usize) -> [usize; 2] {
+        let (a, b) = (self.tail(side), self.tip(side));
+        [a.min(b), a.max(b)]
     }
 
     /// How many half-edges there are: three per triangle.
@@ -95,7 +118,12 @@ impl Surface {
     /// The half-edges that leave a vertex, counter-clockwise; on the boundary from the one
     /// along it.
     pub fn fan(&self, vertex: usize) -> impl Iterator<Item = usize> + '_ {
-        let first = self.first[vertex];
+        self.fan_from(self.first[vertex])
+    }
+
+    /// The half-edges that leave the same vertex, counter-clockwise from one of them: once
+    /// around, or up to the boundary.
+    pub fn fan_from(&self, first: usize) -> impl Iterator<Item = usize> + '_ {
         let mut at = Some(first).filter(|&side| side != NONE);
         std::iter::from_fn(move || {
             let side = at?;
@@ -145,6 +173,11 @@ impl Surface {
             let twin = self.twin(side).filter(|&twin| side < twin);
             twin.is_some_and(|twin| normal(side).dot(&normal(twin)) < FOLDED)
         })
+    }
+
+    /// Area of the whole, mm².
+    pub fn area(&self) -> f64 {
+        self.triangles.iter().map(|t| area_vector(&self.positions, t).norm()).sum()
     }
 
     /// Length of the edge of a half-edge.
