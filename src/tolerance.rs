@@ -201,3 +201,10 @@ pub const PINNED: f64 = 1e-10;
 
 /// Fins of a designed structure are plane to this share of their diameter: 1e-6 %.
 pub const DESIGNED_PLANAR: f64 = 1e-8;
+
+/// How far a mirror image may lie off its surface, as a share of the root of its area, and
+/// how far axes and mirrors may be off their directions.
+pub const SYMMETRIC: f64 = 1e-4;
+
+/// Vertices nearer to a mirror than this share of the root of the area lie on it.
+pub const ON_MIRROR: f64 = 1e-5;

@@ -1,7 +1,7 @@
 //! `finwright design`: from a reference surface to a structure.
 
 use crate::cli::console::{Console, Terminal};
-use crate::cli::flags::design::{AlignWhen, DesignArgs};
+use crate::cli::flags::design::{AlignWhen, DesignArgs, SymmetryWhen};
 use crate::cli::input;
 use crate::cli::jobdir::JobDirError;
 use crate::cli::outcome::{End, Failure, print};
@@ -188,6 +188,7 @@ fn wishes(args: &DesignArgs) -> Result<Wishes, Failure> {
         boundary_fins: args.boundary_fins,
         singular,
         even: args.even,
+        symmetry: args.symmetry == SymmetryWhen::Auto,
     })
 }
 

@@ -7,10 +7,9 @@
 use crate::design::attempt::{Attempt, Meshed, foot, sized};
 use crate::design::directions::Singular;
 use crate::design::families::families;
-use crate::design::figures::{DesignFigures, Judged, SingularNode};
+use crate::design::figures::{DesignFigures, Judged};
 use crate::design::finding::ChainFinding;
 use crate::design::planarise::{self, PlanariseError, Planarised, planarise};
-use crate::design::quads::Rank;
 use crate::design::surface::{Measures, Surface};
 use crate::design::wishes::{Align, SingularWish, Size, Wishes};
 use crate::diagnostic::{Finding, passes};
@@ -38,7 +37,7 @@ pub struct Designed {
 }
 
 /// Weight of torsal directions: smoothing reaches 1.2 cells.
-const TORSAL: f64 = 0.65;
+pub(super) const TORSAL: f64 = 0.65;
 /// Weight of even spacing.
 const EVEN: f64 = 1.0;
 /// Edges at the boundary shorter than this share of a cell are joined, and more of them
@@ -47,36 +46,32 @@ const SHORT: f64 = 0.35;
 const LESS_SHORT: f64 = 0.5;
 /// Depth to either side, as a share of a cell.
 const DEPTH: f64 = 0.35;
-/// Weights tried for even cells, in the order of what they cost: of torsal directions as a
-/// share of their own, and of even spacing.
-const EVENER: [[f64; 2]; 8] = [
-    [1.0, 3.0],
-    [1.0, 10.0],
-    [0.3, 1.0],
-    [0.3, 3.0],
-    [0.3, 10.0],
-    [0.3, 18.0],
-    [0.1, 3.0],
-    [0.1, 10.0],
-];
-/// How near to the middle, as shares of their distance, nodes of three fins are tried, and
-/// how much farther axes may turn for it, degrees.
-const NEARER: [f64; 4] = [0.9, 0.8, 0.7, 0.6];
-const MORE_TURN_DEG: f64 = 1.0;
-/// Share of fins in band that is even enough, and how far axes may turn for it, degrees.
-const EVEN_ENOUGH: f64 = 0.95;
-const MOST_EVEN_TURN_DEG: f64 = 13.0;
+/// Ratios of lengths that differ by no more are the same.
+const SAME_ASPECT: f64 = 0.001;
 
 /// One design, as it is sought.
-struct Search<'a> {
-    surface: &'a Surface,
-    measures: Measures,
-    name: &'a str,
-    wishes: &'a Wishes,
+pub(super) struct Search<'a> {
+    pub surface: &'a Surface,
+    pub measures: Measures,
+    pub name: &'a str,
+    pub wishes: &'a Wishes,
+}
+
+/// A mesh on the surface, with what was wanted of it.
+pub(super) struct Mesh {
+    pub before: Draft,
+    /// For each node a triangle near it.
+    pub starts: Vec<usize>,
+    /// Of the surface's vertices.
+    pub axes: Vec<Vector3>,
+    pub directions: Vec<[Vector3; 2]>,
+    /// Wanted lengths of fins in both families.
+    pub cells: [f64; 2],
+    pub aligned: bool,
 }
 
 /// How an attempt ended.
-enum Outcome {
+pub(super) enum Outcome {
     Sound(Box<Designed>),
     /// The mesh had to be bent too far for its fins.
     Bent(Vec<Finding>),
@@ -95,27 +90,42 @@ pub fn design(
     watch: &mut dyn Watch,
 ) -> Result<Designed, PlanariseError> {
     let search = Search { surface, measures: Measures::of(surface), name, wishes };
-    let singular = match &wishes.singular {
-        SingularWish::Auto => None,
-        SingularWish::At(places) => Some(search.given(places)?),
-    };
-    let first = Attempt {
-        cell: search.cell(),
-        aspect: wishes.aspect,
-        torsal: TORSAL,
-        even: EVEN,
-        align: wishes.align != Align::None,
-        follow: true,
-        short: SHORT,
-        singular: singular.as_deref(),
-    };
-    let (designed, attempt) = search.ladder(first, watch)?;
-    let designed = search.gathered(designed, attempt, watch)?;
-    if wishes.even { search.evened(designed, attempt, watch) } else { Ok(designed) }
+    if let Some(designed) = search.mirrored(watch)? {
+        return Ok(designed);
+    }
+    search.designed(watch)
 }
 
 impl Search<'_> {
-    fn cell(&self) -> f64 {
+    /// A design on the surface as it is.
+    pub(super) fn designed(
+        &self,
+        watch: &mut dyn Watch,
+    ) -> Result<Designed, PlanariseError> {
+        let singular = match &self.wishes.singular {
+            SingularWish::Auto => None,
+            SingularWish::At(places) => Some(self.given(places)?),
+        };
+        let first = Attempt {
+            cell: self.cell(),
+            aspect: self.wishes.aspect,
+            torsal: TORSAL,
+            even: EVEN,
+            align: self.wishes.align != Align::None,
+            follow: true,
+            short: SHORT,
+            singular: singular.as_deref(),
+        };
+        let (designed, attempt) = self.ladder(first, watch)?;
+        let designed = self.gathered(designed, attempt, watch)?;
+        if self.wishes.even {
+            self.evened(designed, attempt, watch)
+        } else {
+            Ok(designed)
+        }
+    }
+
+    pub(super) fn cell(&self) -> f64 {
         match self.wishes.size {
             Size::Cell(cell) => cell,
             Size::Nodes(count) => (self.measures.area() / count.max(1) as f64).sqrt(),
@@ -135,7 +145,10 @@ impl Search<'_> {
     }
 
     /// Singular vertices nearest to the given places.
-    fn given(&self, places: &[(Point3, usize)]) -> Result<Vec<Singular>, ChainFinding> {
+    pub(super) fn given(
+        &self,
+        places: &[(Point3, usize)],
+    ) -> Result<Vec<Singular>, ChainFinding> {
         let mut singular: Vec<Singular> = Vec::new();
         let positions = &self.surface.positions;
         let inner: Vec<usize> =
@@ -159,7 +172,7 @@ impl Search<'_> {
         Ok(singular)
     }
 
-    fn tried(
+    pub(super) fn tried(
         &self,
         attempt: Attempt,
         watch: &mut dyn Watch,
@@ -227,74 +240,6 @@ impl Search<'_> {
         Err(PlanariseError::Refused(missed))
     }
 
-    /// Where the boundary alone asks for four nodes of three fins they come too near to it:
-    /// the most even of designs with them nearer to the middle.
-    fn gathered(
-        &self,
-        mut best: Designed,
-        attempt: Attempt,
-        watch: &mut dyn Watch,
-    ) -> Result<Designed, PlanariseError> {
-        let at = |node: &SingularNode| Point3::from(node.position);
-        let four: Vec<Point3> = best.figures.singular.iter().map(at).collect();
-        let all_three = best.figures.singular.iter().all(|node| node.valence == 3);
-        let wanted = attempt.align && attempt.singular.is_none() && all_three;
-        if !wanted || four.len() != 4 || best.figures.edge.in_band >= EVEN_ENOUGH {
-            return Ok(best);
-        }
-        let most = best.figures.axis_turn_deg.max + MORE_TURN_DEG;
-        let middle = four.iter().map(|p| p.coords / 4.0).sum::<Vector3>();
-        for share in NEARER {
-            let places: Vec<(Point3, usize)> = four
-                .iter()
-                .map(|p| (Point3::from(middle + (p.coords - middle) * share), 3))
-                .collect();
-            let Ok(singular) = self.given(&places) else { continue };
-            let attempt = Attempt { singular: Some(&singular), ..attempt };
-            if let Outcome::Sound(designed) = self.tried(attempt, watch)?
-                && designed.figures.axis_turn_deg.max <= most
-                && designed.figures.edge.in_band > best.figures.edge.in_band
-            {
-                best = *designed;
-            }
-        }
-        Ok(best)
-    }
-
-    /// The most even of several designs whose axes do not turn too far.
-    fn evened(
-        &self,
-        plain: Designed,
-        attempt: Attempt<'_>,
-        watch: &mut dyn Watch,
-    ) -> Result<Designed, PlanariseError> {
-        let before = (plain.figures.edge.in_band, plain.figures.axis_turn_deg.max);
-        let mut best = plain;
-        let weighed = EVENER.map(|[torsal, even]| Attempt {
-            torsal: torsal * TORSAL,
-            even,
-            ..attempt
-        });
-        // Nothing singular at all, where the surface allows it.
-        let may_be_none =
-            attempt.singular.is_none() && !self.surface.boundary().is_empty();
-        let none = Attempt { singular: Some(&[]), ..attempt };
-        for attempt in weighed.into_iter().chain(may_be_none.then_some(none)) {
-            if best.figures.edge.in_band >= EVEN_ENOUGH {
-                break;
-            }
-            if let Outcome::Sound(designed) = self.tried(attempt, watch)?
-                && designed.figures.axis_turn_deg.max <= MOST_EVEN_TURN_DEG
-                && designed.figures.edge.in_band > best.figures.edge.in_band
-            {
-                best = *designed;
-            }
-        }
-        let after = (best.figures.edge.in_band, best.figures.axis_turn_deg.max);
-        best.findings.push(ChainFinding::Evened { before, after }.into());
-        Ok(best)
-    }
-
     /// Makes the fins of a mesh planar and says what was reached.
     fn planar(
         &self,
@@ -302,39 +247,56 @@ impl Search<'_> {
         aligned: bool,
         watch: &mut dyn Watch,
     ) -> Result<Designed, PlanariseError> {
-        let (surface, wishes) = (self.surface, self.wishes);
         let Meshed { quads, axes, directions, cell, aspect } = meshed;
         let nodes = quads.nodes.iter();
-        let mut draft = Draft {
+        let before = Draft {
             name: self.name.to_owned(),
-            positions: nodes.clone().map(|node| surface.point(foot(node))).collect(),
-            axes: nodes.map(|node| surface.between(&axes, foot(node))).collect(),
-            faces: quads.faces.clone(),
+            positions: nodes.clone().map(|node| self.surface.point(foot(node))).collect(),
+            axes: nodes.map(|node| self.surface.between(&axes, foot(node))).collect(),
+            faces: quads.faces,
             ..Draft::default()
         };
-        let [below, above] = wishes.depth.unwrap_or([DEPTH * cell; 2]);
-        draft = draft.with_depth(below, above);
+        let mesh = Mesh {
+            before,
+            starts: quads.nodes.iter().map(|node| node.triangle).collect(),
+            axes,
+            directions,
+            cells: [cell * aspect.sqrt(), cell / aspect.sqrt()],
+            aligned,
+        };
+        self.finished(mesh, &|_| (), watch)
+    }
+
+    /// The same for any mesh on the surface; `after` may touch up what was made planar.
+    pub(super) fn finished(
+        &self,
+        mesh: Mesh,
+        after: &dyn Fn(&mut Draft),
+        watch: &mut dyn Watch,
+    ) -> Result<Designed, PlanariseError> {
+        let Mesh { before, starts, axes, directions, cells, aligned } = mesh;
+        let cell = (cells[0] * cells[1]).sqrt();
+        let [below, above] = self.wishes.depth.unwrap_or([DEPTH * cell; 2]);
+        let before = before.with_depth(below, above);
         let mut options = planarise::Options {
-            boundary_fins: wishes.boundary_fins,
+            boundary_fins: self.wishes.boundary_fins,
             ..planarise::Options::default()
         };
-        let mut planarised = planarise(draft.clone(), &options, watch)?;
+        let mut planarised = planarise(before.clone(), &options, watch)?;
         if planarised.figures.after.worst > DESIGNED_PLANAR {
             // Plane enough to be made, but not to be called planar.
             options.target = DESIGNED_PLANAR;
-            planarised = planarise(draft.clone(), &options, watch)?;
+            planarised = planarise(before.clone(), &options, watch)?;
         }
-        let Planarised { draft: mut result, figures: planarised, mut findings, .. } =
-            planarised;
-        let families = families(&result, aspect);
-        let wanted = [cell * aspect.sqrt(), cell / aspect.sqrt()];
+        let Planarised { mut draft, figures: planarised, mut findings, .. } = planarised;
+        after(&mut draft);
+        let families = families(&draft, cells[0] / cells[1]);
         let judged = Judged {
-            surface,
+            surface: self.surface,
             axes: &axes,
-            starts: quads.nodes.iter().map(|node| node.triangle).collect(),
-            on_boundary: quads.nodes.iter().map(|node| node.rank > Rank::Inner).collect(),
-            draft: &result,
-            wanted,
+            starts,
+            draft: &draft,
+            wanted: cells,
             families: &families,
         };
         let figures = judged.figures(&planarised);
@@ -342,13 +304,14 @@ impl Search<'_> {
             let [a, b] = fin.ends().map(NodeId::index);
             families.get(&[a.min(b), a.max(b)]).copied().flatten()
         };
-        result.families = Some(result.fin_ids().into_iter().map(family).collect());
-        result.design = Some(self.provenance(wanted, aligned));
+        draft.families = Some(draft.fin_ids().into_iter().map(family).collect());
+        draft.design = Some(self.provenance(cells, aligned));
         // Cells of one shape were asked for, or could be had.
-        if wishes.aspect.to_bits() != aspect.to_bits() {
+        let off = (cells[0] / cells[1] / self.wishes.aspect - 1.0).abs();
+        if off > SAME_ASPECT {
             findings.push(ChainFinding::CellsAlike { cell_mm: cell }.into());
         }
-        Ok(Designed { draft: result, before: draft, figures, findings, axes, directions })
+        Ok(Designed { draft, before, figures, findings, axes, directions })
     }
 }
 

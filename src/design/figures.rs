@@ -111,7 +111,6 @@ pub(super) struct Judged<'a> {
     pub axes: &'a [Vector3],
     /// For each node a triangle near it.
     pub starts: Vec<usize>,
-    pub on_boundary: Vec<bool>,
     pub draft: &'a Draft,
     /// Wanted lengths of fins in both families.
     pub wanted: [f64; 2],
@@ -123,6 +122,7 @@ impl Judged<'_> {
     pub(super) fn figures(&self, planarised: &Figures) -> DesignFigures {
         let draft = self.draft;
         let edges = self.edges();
+        let on_boundary = self.on_boundary(&edges);
         let feet = (0..draft.positions.len()).map(|node| {
             let foot = self.surface.foot(draft.positions[node], self.starts[node]);
             let turn = angle(draft.axes[node], self.surface.between(self.axes, foot));
@@ -140,9 +140,9 @@ impl Judged<'_> {
             fins: planarised.fins,
             faces: draft.faces.len(),
             euler,
-            singular: self.singular(&edges),
+            singular: self.singular(&edges, &on_boundary),
             flipped: 0,
-            edge: self.lengths(&edges),
+            edge: self.lengths(&edges, &on_boundary),
             fin_angle_deg: self.angles(),
             planarity_percent: PlanarityPercent {
                 before: spread(&planarised.before),
@@ -166,11 +166,22 @@ impl Judged<'_> {
         edges
     }
 
-    fn singular(&self, edges: &BTreeMap<[usize; 2], usize>) -> Vec<SingularNode> {
+    /// Whether each node is an end of an edge with one face.
+    fn on_boundary(&self, edges: &BTreeMap<[usize; 2], usize>) -> Vec<bool> {
+        let mut on_boundary = vec![false; self.draft.positions.len()];
+        let rim = edges.iter().filter(|edge| *edge.1 == 1);
+        rim.flat_map(|edge| edge.0).for_each(|&node| on_boundary[node] = true);
+        on_boundary
+    }
+
+    fn singular(
+        &self,
+        edges: &BTreeMap<[usize; 2], usize>,
+        on_boundary: &[bool],
+    ) -> Vec<SingularNode> {
         let mut valence = vec![0; self.draft.positions.len()];
         edges.keys().flatten().for_each(|&node| valence[node] += 1);
-        let nodes =
-            (0..valence.len()).filter(|&k| !self.on_boundary[k] && valence[k] != 4);
+        let nodes = (0..valence.len()).filter(|&k| !on_boundary[k] && valence[k] != 4);
         nodes
             .map(|node| SingularNode {
                 node,
@@ -180,8 +191,12 @@ impl Judged<'_> {
             .collect()
     }
 
-    fn lengths(&self, edges: &BTreeMap<[usize; 2], usize>) -> Lengths {
-        let inside = |edge: &&[usize; 2]| edge.iter().all(|&k| !self.on_boundary[k]);
+    fn lengths(
+        &self,
+        edges: &BTreeMap<[usize; 2], usize>,
+        on_boundary: &[bool],
+    ) -> Lengths {
+        let inside = |edge: &&[usize; 2]| edge.iter().all(|&k| !on_boundary[k]);
         let [wanted, second] = self.wanted;
         // Lengths of the second family count as if they were of the first.
         let length = |&[a, b]: &[usize; 2]| {

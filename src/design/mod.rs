@@ -9,12 +9,14 @@ pub mod examples;
 mod families;
 mod figures;
 mod finding;
+mod improve;
 mod map;
 mod picture;
 pub mod planarise;
 mod quads;
 pub mod surface;
 mod surfaces;
+mod symmetry;
 mod wishes;
 
 pub use chain::{Designed, design};

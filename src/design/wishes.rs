@@ -59,6 +59,8 @@ pub struct Wishes {
     pub singular: SingularWish,
     /// Whether axes may turn for cells of even size.
     pub even: bool,
+    /// Whether a surface that is its own mirror image gets a mesh that is.
+    pub symmetry: bool,
 }
 
 impl Default for Wishes {
@@ -72,6 +74,7 @@ impl Default for Wishes {
             boundary_fins: false,
             singular: SingularWish::Auto,
             even: false,
+            symmetry: false,
         }
     }
 }

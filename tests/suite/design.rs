@@ -492,9 +492,9 @@ fn fins_of_both_families_have_the_lengths_asked_for() {
     }
 }
 
-/// A roof of two slopes that meet in a crease at y = 160.
+/// A roof of two slopes that meet in a crease at y = 140.
 fn folded_roof() -> Polygons {
-    patch(24, 16, |x, y| 200.0 - (y - 160.0).abs() + 10.0 * trig::sin(x / 160.0))
+    patch(24, 16, |x, y| 200.0 - (y - 140.0).abs() + 10.0 * trig::sin(x / 160.0))
 }
 
 /// Fins with both ends on the plane y = `at`, and those that cross it.
@@ -512,11 +512,11 @@ fn along_and_across(designed: &Designed, at: f64) -> [usize; 2] {
 fn no_fin_crosses_a_crease_that_is_followed() {
     let folded = surface(folded_roof());
     let plain = sound(&folded, &wishes(Size::Cell(40.0), Align::None));
-    assert!(along_and_across(&plain, 160.0)[1] > 0);
+    assert!(along_and_across(&plain, 140.0)[1] > 0);
     let folded = folded.following_creases(100.0);
     for align in [Align::None, Align::Boundary] {
         let designed = sound(&folded, &wishes(Size::Cell(40.0), align));
-        let [along, across] = along_and_across(&designed, 160.0);
+        let [along, across] = along_and_across(&designed, 140.0);
         assert!(across == 0 && along >= 10, "{align:?}: {along} along, {across} across");
         let off = designed.figures.surface_distance.max;
         assert!(off <= 0.01 * designed.figures.edge.wanted, "{align:?}: {off}");
@@ -542,7 +542,8 @@ fn fins_run_along_every_piece_of_a_curve_that_is_given() {
             (a + along * share.clamp(0.0, 1.0) - middle).norm()
         };
         let nearest = draft.fin_ids().into_iter().map(near).fold(f64::INFINITY, f64::min);
-        assert!(nearest < 4.0, "{nearest} mm from {middle}");
+        // A fifth of a fin: nodes slide on the surface when fins are made plane.
+        assert!(nearest < 8.0, "{nearest} mm from {middle}");
     }
 }
 
@@ -558,4 +559,30 @@ fn a_disk_follows_its_rim_with_even_cells() {
     let disk = surface(polygons);
     let designed = sound(&disk, &wishes(Size::Nodes(300), Align::Boundary));
     assert!(designed.figures.edge.in_band >= 0.75, "{:?}", designed.figures.edge);
+}
+
+#[test]
+fn a_symmetric_surface_gets_a_symmetric_mesh() {
+    let dome = surface((surface_named("dome-surface").unwrap().polygons)());
+    for align in [Align::None, Align::Boundary] {
+        let symmetric = Wishes { symmetry: true, ..wishes(Size::Nodes(300), align) };
+        let designed = sound(&dome, &symmetric);
+        let draft = &designed.draft;
+        let nodes = draft.positions.len();
+        assert!(nodes.abs_diff(300) <= 30, "{nodes}");
+        for mirror in [Vector3::new(-1.0, 1.0, 1.0), Vector3::new(1.0, -1.0, 1.0)] {
+            for p in &draft.positions {
+                let image = Point3::from(p.coords.component_mul(&mirror));
+                let far = |q: &Point3| (q - image).norm();
+                let nearest =
+                    draft.positions.iter().map(far).fold(f64::INFINITY, f64::min);
+                assert!(nearest <= 1e-6, "{align:?}: {p} has no image: {nearest}");
+            }
+        }
+    }
+    // Without a mirror nothing changes.
+    let hill = surface((surface_named("hill").unwrap().polygons)());
+    let plain = wishes(Size::Cell(100.0), Align::None);
+    let asked = Wishes { symmetry: true, ..plain.clone() };
+    assert_eq!(sound(&hill, &asked).draft, sound(&hill, &plain).draft);
 }

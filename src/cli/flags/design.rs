@@ -26,6 +26,15 @@ pub enum AlignWhen {
     Boundary,
 }
 
+/// Whether symmetry is looked for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum SymmetryWhen {
+    /// In up to two planes through the middle
+    Auto,
+    /// Not at all
+    None,
+}
+
 /// Arguments of `design`.
 #[derive(Debug, Args)]
 pub struct DesignArgs {
@@ -68,6 +77,11 @@ pub struct DesignArgs {
     /// each, in the surface's units
     #[arg(long, default_value = "auto", value_name = "auto|none|FILE")]
     pub singular: String,
+
+    /// Whether a surface that is its own mirror image gets a mesh that is: one sector is
+    /// designed, and reflected
+    #[arg(long, value_enum, default_value = "none")]
+    pub symmetry: SymmetryWhen,
 
     /// Let axes turn, by up to 13 degrees, for fins of more even length
     #[arg(long)]

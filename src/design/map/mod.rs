@@ -20,7 +20,7 @@ use crate::design::surface::{Line, Measures, Surface};
 use crate::geometry::{Vector2, Vector3};
 use crate::sparse::NotPositiveDefinite;
 use copies::Copies;
-use poisson::Poisson;
+use poisson::{Poisson, Spacing};
 
 /// Steps of a coordinate between two lines.
 pub(super) const UNIT: i64 = 1 << 20;
@@ -107,7 +107,8 @@ pub(super) fn map(
     let apart = cut.quarters.iter().all(|quarters| quarters % 2 == 0);
     let aspect = if apart { wish.aspect } else { 1.0 };
     let cells = cells(surface, measures, &pairs, wish.cell, aspect);
-    let mut poisson = Poisson::new(surface, measures, pairs, &copies, wish.even, cells);
+    let spacing = Spacing { cells, even: wish.even };
+    let mut poisson = Poisson::new(surface, measures, pairs, &copies, spacing);
     poisson.factor()?;
     poisson.space()?;
     let mut whole = integers::rounded(&poisson.schur, &poisson.pull);

@@ -19,6 +19,15 @@ const WIDEST: f64 = 1.4;
 const NARROWEST: f64 = 0.7;
 const ROUNDS: usize = 3;
 
+/// How lines are to be spaced.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Spacing {
+    /// Wanted lengths of fins along both directions.
+    pub cells: [f64; 2],
+    /// How much they weigh beside true directions.
+    pub even: f64,
+}
+
 pub(super) struct Poisson<'a> {
     surface: &'a Surface,
     measures: &'a Measures,
@@ -51,8 +60,7 @@ impl<'a> Poisson<'a> {
         measures: &'a Measures,
         pairs: Vec<[Vector2; 2]>,
         copies: &'a Copies,
-        even: f64,
-        cells: [f64; 2],
+        Spacing { cells, even }: Spacing,
     ) -> Self {
         let count = surface.triangles.len();
         Self {

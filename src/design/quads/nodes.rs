@@ -140,7 +140,11 @@ fn crossings(charts: &Charts, triangle: usize, net: &mut Net) {
                 continue;
             }
             let boundary = on.filter(|_| twin.is_none());
-            let rank = if boundary.is_some() { Rank::Boundary } else { Rank::Inner };
+            let rank = match boundary {
+                Some(side) if charts.surface.is_followed(side) => Rank::Corner,
+                Some(_) => Rank::Boundary,
+                None => Rank::Inner,
+            };
             let shares = charts.shares(triangle, at);
             let place = Node { triangle, shares, vertex: None, rank };
             let ways = match boundary {

@@ -28,6 +28,16 @@ impl Surface {
         sum.try_normalize(0.0).unwrap_or(vectors[corners[0]])
     }
 
+    /// The triangle whose middle is nearest to `p`.
+    pub fn nearest_triangle(&self, p: Point3) -> usize {
+        let far = |triangle: &usize| {
+            let corners = self.triangles[*triangle].map(|k| self.positions[k].coords);
+            (corners.iter().sum::<Vector3>() / 3.0 - p.coords).norm_squared()
+        };
+        let nearest = (0..self.triangles.len()).min_by(|a, b| far(a).total_cmp(&far(b)));
+        nearest.unwrap_or(0)
+    }
+
     /// The point nearest to `p`, sought from triangle to triangle as long as that leads
     /// nearer.
     pub fn foot(&self, p: Point3, start: usize) -> Foot {

@@ -44,6 +44,18 @@ impl Surface {
         surface.with_lines(kept).without_ears()
     }
 
+    /// The same with fins to follow the boundary where both ends of an edge are `on` it.
+    pub(in crate::design) fn following_boundary(
+        self,
+        on: impl Fn(Point3) -> bool,
+    ) -> Self {
+        let rim = (0..self.side_count()).filter(|&side| self.is_boundary(side));
+        let ends = rim.map(|side| self.ends(side));
+        let on = |ends: &[usize; 2]| ends.iter().all(|&k| on(self.positions[k]));
+        let edges = ends.filter(on).collect();
+        self.with_lines(edges)
+    }
+
     /// The same with fins to follow these polylines, each along edges near it whose
     /// vertices are moved onto it. Returns also which of them were not found on the surface.
     #[must_use]
@@ -144,7 +156,7 @@ impl Surface {
         let mut degree = vec![0; self.positions.len()];
         let followed = |&side: &usize| self.is_followed(side);
         let sides = || (0..self.side_count()).filter(followed);
-        sides().for_each(|side| degree[self.tail(side)] += 1);
+        self.followed.iter().flatten().for_each(|&vertex| degree[vertex] += 1);
         let mut seen = vec![false; self.side_count()];
         let mut lines = Vec::new();
         for round in 0..2 {

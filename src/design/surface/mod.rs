@@ -50,7 +50,7 @@ pub struct Surface {
     twins: Vec<usize>,
     /// A half-edge that leaves each vertex, on the boundary the first of its fan.
     first: Vec<usize>,
-    /// Inner edges that fins are to follow, by their vertices.
+    /// Edges that fins are to follow, by their vertices.
     followed: BTreeSet<[usize; 2]>,
 }
 
@@ -72,16 +72,19 @@ impl Surface {
         Self { positions, triangles, axes, twins, first, followed: BTreeSet::new() }
     }
 
-    /// The same with fins to follow the inner ones of these edges.
+    /// The same with fins to follow these edges.
     fn with_lines(self, edges: BTreeSet<[usize; 2]>) -> Self {
         Self { followed: edges, ..self }
     }
 
     /// Whether fins are to follow a half-edge.
     pub(in crate::design) fn is_followed(&self, side: usize) -> bool {
+        !self.followed.is_empty() && self.followed.contains(&self.ends(side))
+    }
+
+    /// Whether there are lines that fins are to follow.
+    pub(in crate::design) fn has_lines(&self) -> bool {
         !self.followed.is_empty()
-            && !self.is_boundary(side)
-            && self.followed.contains(&self.ends(side))
     }
 
     /// Both vertices of the edge of a half-edge, the smaller first.
