@@ -51,8 +51,12 @@ pub const WRITTEN_MM: f64 = 1e-6;
 /// How far the rounding of a placement may move an outline, mm.
 pub const PLACED_MM: f64 = 2e-6;
 
-/// Room that an outline needs beside itself to fit a sheet for certain, mm.
+/// Room beside the parts of a strip, mm.
 pub const ROOM_MM: f64 = 1e-5;
+
+/// How much larger than the free area a part may be by rounding and still fit it, mm: with
+/// the rounding of its placement it stays within [`PLACED_MM`].
+pub const EXACT_FIT_MM: f64 = 5e-7;
 
 /// Seats on a sheet that cost less than this apart cost the same, mm.
 pub const SAME_COST_MM: f64 = 1e-9;

@@ -7,7 +7,7 @@
 
 use crate::geometry::{Motion, Point2, Rect};
 use crate::nest::{NestedSheet, Placement, Shape, Stock, rotation};
-use crate::tolerance::{PLACED_MM, SAME_COST_MM};
+use crate::tolerance::{EXACT_FIT_MM, PLACED_MM, SAME_COST_MM};
 
 /// Width of a column, mm.
 const COLUMN: f64 = 1.0;
@@ -65,7 +65,7 @@ impl OpenSheet {
         let angles = rotation::good(&shape.outline, &shape.rotations, &self.sheet);
         let profiles: Vec<Profile> = angles
             .into_iter()
-            .map(|angle| Profile::new(&shape.outline, angle, self.sheet.spacing))
+            .map(|angle| self.profile_of(&shape.outline, angle))
             .collect();
         let positions =
             profiles.iter().enumerate().filter_map(|(turn, p)| self.position(turn, p));
@@ -86,17 +86,21 @@ impl OpenSheet {
         true
     }
 
+    fn profile_of(&self, outline: &[Point2], angle: f64) -> Profile {
+        Profile::new(outline, angle, self.sheet.spacing, self.profile.len())
+    }
+
     /// The cheapest column for a turned part: low, and with little lost below it.
     fn position(&self, turn: usize, profile: &Profile) -> Option<Position> {
         let columns = profile.lower.len();
         let width = self.sheet.width - 2.0 * self.sheet.margin;
-        let ceiling = self.sheet.height - self.sheet.margin - PLACED_MM;
+        let ceiling = self.sheet.height - self.sheet.margin + EXACT_FIT_MM;
         let floor = self.sheet.margin;
         let highest = profile.upper.iter().copied().fold(f64::NEG_INFINITY, f64::max);
         let lowest = profile.lower.iter().copied().fold(f64::INFINITY, f64::min);
         let mut best: Option<Position> = None;
         for column in 0..=self.profile.len().checked_sub(columns)? {
-            if column as f64 * COLUMN + profile.width > width - PLACED_MM {
+            if column as f64 * COLUMN + profile.width > width + EXACT_FIT_MM {
                 break;
             }
             let height = self.rest(column, profile).max(floor - lowest);
@@ -134,12 +138,13 @@ fn up(length: f64) -> f64 {
 }
 
 impl Profile {
-    fn new(outline: &[Point2], angle: f64, spacing: f64) -> Self {
+    /// The last of at most so many columns is as wide as it needs to be.
+    fn new(outline: &[Point2], angle: f64, spacing: f64, most: usize) -> Self {
         let rotation = Motion::rotation(angle);
         let turned: Vec<Point2> = outline.iter().map(|&p| rotation.apply(p)).collect();
         let bounds = Rect::around(&turned);
         let (left, width) = (bounds.min.x, bounds.size().x);
-        let columns = (width / COLUMN).floor() as usize + 1;
+        let columns = ((width / COLUMN).floor() as usize + 1).min(most.max(1));
         let mut lower = vec![f64::INFINITY; columns];
         let mut upper = vec![f64::NEG_INFINITY; columns];
         for (a, b) in turned.iter().zip(turned.iter().cycle().skip(1)) {
@@ -152,7 +157,8 @@ impl Profile {
                     a.y + (b.y - a.y) * share.clamp(0.0, 1.0)
                 };
                 let start = left + k as f64 * COLUMN;
-                let mut ends = vec![at(start.max(a.x)), at((start + COLUMN).min(b.x))];
+                let end = if k + 1 < columns { start + COLUMN } else { b.x };
+                let mut ends = vec![at(start.max(a.x)), at(end.min(b.x))];
                 if b.x <= a.x {
                     ends.push(b.y);
                 }

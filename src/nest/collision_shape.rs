@@ -3,7 +3,7 @@
 use crate::geometry::ring::area;
 use crate::geometry::{Motion, Point2, Rect, Vector2};
 use crate::nest::convex::ConvexPieces;
-use crate::nest::convex_decomposition::{convex_decomposition, mean_width};
+use crate::nest::convex_decomposition::{convex_decomposition, mean_width, open_holes};
 use crate::nest::interlock::Centerline;
 use crate::nest::{Placement, Remnant, Rotations, Shape, rotation};
 
@@ -40,6 +40,7 @@ pub(super) struct CollisionShape {
     /// Allowed angles; empty if free.
     pub(super) angles: Vec<f64>,
     pub(super) size: f64,
+    /// Without the holes that parts may lie in, mm².
     pub(super) area: f64,
     /// Share of this shape in a pair's loss: large parts count for more.
     pub(super) weight: f64,
@@ -53,9 +54,7 @@ pub(super) fn collision_shapes(
     shapes: &[Shape],
     spacing: f64,
 ) -> Option<(Vec<CollisionShape>, Vec<usize>)> {
-    let slimmest =
-        shapes.iter().map(|s| mean_width(&s.outline)).fold(f64::INFINITY, f64::min);
-    let gate = spacing + slimmest / 2.0;
+    let gate = gate(shapes, spacing);
     let (mut all, mut which): (Vec<CollisionShape>, Vec<usize>) =
         (Vec::new(), Vec::new());
     for (k, shape) in shapes.iter().enumerate() {
@@ -65,6 +64,12 @@ pub(super) fn collision_shapes(
         which.push(all.len() - 1);
     }
     Some((all, which))
+}
+
+/// Narrower pockets and holes are of no use: no part would fit.
+pub(super) fn gate(shapes: &[Shape], spacing: f64) -> f64 {
+    let widths = shapes.iter().map(|s| mean_width(&s.outline));
+    spacing + widths.fold(f64::INFINITY, f64::min) / 2.0
 }
 
 impl CollisionShape {
@@ -80,7 +85,8 @@ impl CollisionShape {
         };
         let still = ConvexPieces::new(&pieces, middle);
         let size = (long * wide).max(f64::MIN_POSITIVE);
-        let (area, weight) = (area(&shape.outline), size.sqrt().sqrt());
+        let open: f64 = open_holes(&shape.holes, gate).map(|hole| area(hole)).sum();
+        let (area, weight) = (area(&shape.outline) - open, size.sqrt().sqrt());
         let is_free = shape.rotations == Rotations::Free;
         let centerline = Centerline::of(&shape.outline, middle).filter(|_| is_free);
         Some(Self { still, middle, angles, size, area, weight, centerline })

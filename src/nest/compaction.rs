@@ -142,8 +142,8 @@ impl OverlapState<'_> {
     ) -> bool {
         let mut improved = false;
         while !budget.over {
-            self.narrow(bin, best, STEP * self.bins.len() as f64);
-            if !self.settle(budget) || self.used(bin) >= best.0 {
+            let fits = self.narrow(bin, best, STEP * self.bins.len() as f64);
+            if !fits || !self.settle(budget) || self.used(bin) >= best.0 {
                 break;
             }
             *best = (self.used(bin), self.poses());
@@ -179,8 +179,8 @@ impl OverlapState<'_> {
         let [mut step, last, factor] = SQUEEZE;
         let mut improved = false;
         while step > last && !budget.over {
-            self.narrow(bin, best, step);
-            if self.separate(budget) && self.used(bin) < best.0 {
+            let fits = self.narrow(bin, best, step);
+            if fits && self.separate(budget) && self.used(bin) < best.0 {
                 *best = (self.used(bin), self.poses());
                 improved = true;
             } else {
@@ -190,8 +190,9 @@ impl OverlapState<'_> {
         improved
     }
 
-    /// The best layout cut somewhere and pushed together.
-    fn narrow(&mut self, bin: usize, best: &(f64, Vec<Pose>), share: f64) {
+    /// The best layout cut somewhere and pushed together; `false` if a part is too large
+    /// for the bin now and found no other: it would stick out of it without overlapping.
+    fn narrow(&mut self, bin: usize, best: &(f64, Vec<Pose>), share: f64) -> bool {
         let left = self.bins[bin].min.x;
         let by = (best.0 - left) * share;
         self.bins[bin].max.x = best.0;
@@ -212,6 +213,10 @@ impl OverlapState<'_> {
                 self.insert_overlapping(part);
             }
         }
+        self.items.iter().all(|Item { pose, rotated, fixed, .. }| {
+            let stays = *fixed || pose.is_nowhere();
+            stays || self.range(rotated, self.bin_at(pose.x)).is_some()
+        })
     }
 
     /// Swaps two large parts of different shape.

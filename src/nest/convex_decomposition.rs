@@ -19,13 +19,21 @@ pub(super) fn convex_decomposition(
     gate: f64,
 ) -> Option<Vec<Vec<Point2>>> {
     let mut rings = vec![outline.to_vec()];
-    rings.extend(holes.iter().filter(|hole| mean_width(hole) > gate).cloned());
+    rings.extend(open_holes(holes, gate).cloned());
     let closed = Triangulation::new(&rings)?.closed(gate);
     let simpler: Vec<Vec<Point2>> = closed.iter().map(|ring| simplified(ring)).collect();
     let triangulation =
         Triangulation::new(&simpler).or_else(|| Triangulation::new(&closed))?;
     let pieces = triangulation.convex();
     (!pieces.is_empty()).then_some(pieces)
+}
+
+/// The holes that a part might lie in.
+pub(super) fn open_holes(
+    holes: &[Vec<Point2>],
+    gate: f64,
+) -> impl Iterator<Item = &Vec<Point2>> {
+    holes.iter().filter(move |hole| mean_width(hole) > gate)
 }
 
 /// Twice the area over half the length around: the width of a long thin shape.

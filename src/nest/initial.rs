@@ -1,11 +1,12 @@
 //! A first layout that is sound: parts are let down one by one, from large to small.
 //!
 //! Remnants, and sheets on which parts lie already, are filled at random places, bare
-//! rectangles bottom-left: each part stays where it leaves least room lost. A few orders
-//! of parts are tried.
+//! rectangles bottom-left: each part stays where it leaves least room lost. Holes of parts
+//! are filled before. A few orders of parts are tried.
 
 use crate::nest::bottom_left::OpenSheet;
 use crate::nest::convex::ConvexPieces;
+use crate::nest::hole_filling::FilledHoles;
 use crate::nest::instance::Instance;
 use crate::nest::random::Random;
 use crate::nest::search::MOST_PARTS;
@@ -13,6 +14,7 @@ use crate::nest::{
     Effort, Layout, NestError, NestedSheet, Shape, Stock, check, fits_any, rotation,
 };
 use crate::watch::{Stopped, Watch};
+use std::collections::BTreeSet;
 
 /// Sheets that are still open for further parts.
 const OPEN_SHEETS: usize = 4;
@@ -36,9 +38,32 @@ pub(super) fn initial_layout(
     stock.iter().flat_map(|s| &s.locked).for_each(|p| open[p.shape] = false);
     let mut fitting: Vec<usize> = (0..shapes.len()).collect();
     fitting.retain(|&k| open[k] && fits_any(&shapes[k], stock));
-    let (cheap, dear) = irregular_kinds(stock);
     let first = order(shapes, &fitting, 0, effort.seed);
-    let (cheap, rest) = fill_irregular(shapes, stock, &cheap, first, effort.seed);
+    let filled = FilledHoles::fill(shapes, stock, &first, effort.seed);
+    let found = laid(&filled, (shapes, stock), &fitting, effort, watch);
+    match found {
+        Err(NestError::Unsound { .. }) if !filled.is_empty() => {
+            laid(&FilledHoles::none(shapes), (shapes, stock), &fitting, effort, watch)
+        }
+        found => found,
+    }
+}
+
+/// The best layout of some orders, with what lies in holes.
+fn laid(
+    filled: &FilledHoles,
+    (shapes, stock): (&[Shape], &[Stock]),
+    fitting: &[usize],
+    effort: &Effort,
+    watch: &mut dyn Watch,
+) -> Result<Layout, NestError> {
+    let solid = &filled.shapes;
+    let inside: BTreeSet<usize> = filled.within(fitting).collect();
+    let mut fitting = fitting.to_vec();
+    fitting.retain(|part| !inside.contains(part));
+    let (cheap, dear) = irregular_kinds(stock);
+    let first = order(solid, &fitting, 0, effort.seed);
+    let (cheap, rest) = fill_irregular(solid, stock, &cheap, first, effort.seed);
     let mut best: Option<(Vec<i32>, f64, Layout)> = None;
     let mut failure = NestError::Stopped(Stopped);
     let orders =
@@ -48,14 +73,14 @@ pub(super) fn initial_layout(
         if watch.stopped() {
             break;
         }
-        let order = order(shapes, &rest, trial, effort.seed);
-        let (open_sheets, left) = lay(shapes, stock, &order);
-        let open_sheets = smaller(open_sheets, shapes, stock);
+        let mut order = order(solid, &rest, trial, effort.seed);
+        let (open_sheets, left) = lay(filled, stock, &mut order);
+        let open_sheets = smaller(open_sheets, solid, stock);
         let last = open_sheets.last().map_or(0.0, OpenSheet::filled);
-        let (dear, left) = fill_irregular(shapes, stock, &dear, left, effort.seed);
+        let (dear, left) = fill_irregular(solid, stock, &dear, left, effort.seed);
         let nested = open_sheets.into_iter().map(OpenSheet::nested);
-        let layout =
-            Layout { sheets: cheap.iter().cloned().chain(nested).chain(dear).collect() };
+        let sheets = cheap.iter().cloned().chain(nested).chain(dear).collect();
+        let layout = filled.with_contents(Layout { sheets });
         if let Some(fault) = check(&layout, shapes, stock).first() {
             failure = NestError::Unsound { fault: fault.to_string() };
             continue;
@@ -92,15 +117,18 @@ fn order(shapes: &[Shape], fitting: &[usize], trial: u32, seed: u64) -> Vec<usiz
 }
 
 /// One layout: each part goes on the first open sheet that takes it; and what is left.
+/// What should lie in the holes of a part that is left over is laid by itself.
 fn lay(
-    shapes: &[Shape],
+    filled: &FilledHoles,
     stock: &[Stock],
-    order: &[usize],
+    order: &mut Vec<usize>,
 ) -> (Vec<OpenSheet>, Vec<usize>) {
     let mut open_sheets: Vec<OpenSheet> = Vec::new();
     let mut left_over = Vec::new();
-    for &index in order {
-        let shape = &shapes[index];
+    let mut next = 0;
+    while let Some(&index) = order.get(next) {
+        next += 1;
+        let shape = &filled.shapes[index];
         let first_open = open_sheets.len().saturating_sub(OPEN_SHEETS);
         if open_sheets[first_open..]
             .iter_mut()
@@ -119,7 +147,10 @@ fn lay(
         });
         match fresh {
             Some(open_sheet) => open_sheets.push(open_sheet),
-            None => left_over.push(index),
+            None => {
+                left_over.push(index);
+                order.extend(filled.within(&[index]));
+            }
         }
     }
     (open_sheets, left_over)
@@ -173,7 +204,7 @@ fn irregular_kinds(stock: &[Stock]) -> (Vec<usize>, Vec<usize>) {
 
 /// Lays parts on all sheets of the given kinds, in the order given, as long as they find a
 /// place; the sheets that are not empty, and the parts that are left.
-fn fill_irregular(
+pub(super) fn fill_irregular(
     shapes: &[Shape],
     stock: &[Stock],
     kinds: &[usize],

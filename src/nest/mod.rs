@@ -16,6 +16,7 @@ mod convex;
 mod convex_decomposition;
 mod error;
 mod groups;
+mod hole_filling;
 mod initial;
 mod instance;
 mod interlock;

@@ -2,7 +2,7 @@
 
 use crate::geometry::{Point2, Vector2, trig};
 use crate::nest::{Rotations, Stock};
-use crate::tolerance::ROOM_MM;
+use crate::tolerance::EXACT_FIT_MM;
 use std::f64::consts::{FRAC_PI_2, PI};
 
 /// A rotation by which the outline fits the sheet inside its margin, if there is one.
@@ -11,7 +11,7 @@ pub fn fits(outline: &[Point2], rotations: &Rotations, stock: &Stock) -> Option<
     let bin = [stock.width - 2.0 * stock.margin, stock.height - 2.0 * stock.margin];
     let inside = |angle: &f64| {
         let size = extent(&hull, *angle);
-        size[0] <= bin[0] - ROOM_MM && size[1] <= bin[1] - ROOM_MM
+        size[0] <= bin[0] + EXACT_FIT_MM && size[1] <= bin[1] + EXACT_FIT_MM
     };
     candidates(&hull, rotations).into_iter().find(inside)
 }

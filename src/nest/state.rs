@@ -6,11 +6,11 @@
 //! spacing; each pair has a weight that grows while it overlaps (guided local search, as
 //! in Gardeyn et al., arXiv 2509.13329).
 
-use crate::geometry::Rect;
+use crate::geometry::{Point2, Rect};
 use crate::nest::collision_shape::{CollisionShape, Pose};
 use crate::nest::convex::ConvexPieces;
 use crate::nest::random::Random;
-use crate::tolerance::{NEST_BOUND, NEST_SLACK_MM};
+use crate::tolerance::{EXACT_FIT_MM, NEST_BOUND, NEST_SLACK_MM};
 
 /// One part in the state, or the wall around a remnant.
 #[derive(Debug, Clone)]
@@ -88,7 +88,9 @@ impl<'a> OverlapState<'a> {
     pub(super) fn range(&self, rotated: &ConvexPieces, bin: usize) -> Option<Rect> {
         let (bin, part) = (self.bins[bin], rotated.bounds);
         let (min, max) = (bin.min - part.min.coords, bin.max - part.max.coords);
-        (min.x <= max.x && min.y <= max.y).then_some(Rect { min, max })
+        let fits = min.x <= max.x + EXACT_FIT_MM && min.y <= max.y + EXACT_FIT_MM;
+        let max = Point2::new(max.x.max(min.x), max.y.max(min.y));
+        fits.then_some(Rect { min, max })
     }
 
     /// The bin over whose columns `x` lies, or the nearest.

@@ -12,6 +12,7 @@ mod drawings;
 mod gate;
 mod golden;
 mod held;
+mod holes;
 mod laws;
 mod nest;
 mod peers;
