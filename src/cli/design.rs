@@ -1,5 +1,6 @@
 //! `finwright design`: from a reference surface to a structure.
 
+use crate::cli::at_scale;
 use crate::cli::console::{Console, Terminal};
 use crate::cli::flags::design::{AlignWhen, DesignArgs, SymmetryWhen};
 use crate::cli::input;
@@ -70,6 +71,34 @@ struct Read {
 /// Runs the command.
 pub(super) fn run(args: &DesignArgs, console: Console) -> Result<End, Failure> {
     let Read { name, polygons, mut findings } = read(args)?;
+    let mut terminal = Terminal::new(console, None);
+    let ended = designed(args, &name, polygons, &mut findings, &mut terminal);
+    terminal.finish();
+    let Some((surface, designed, structure)) = ended? else {
+        console.findings(&findings);
+        if args.json {
+            print(&format!("{}\n", serde_json::json!({"findings": findings})));
+        }
+        return Ok(End::Refused);
+    };
+    console.findings(&findings);
+    write(args, &surface, &designed, &structure)?;
+    if args.json {
+        print(&format!("{}\n", report(&designed.figures, &findings)));
+    }
+    console.say(&summary(&name, &designed.figures));
+    Ok(End::of(&findings))
+}
+
+/// The surface, the design on it, and the structure; `None` if it is refused, for what was
+/// found.
+fn designed(
+    args: &DesignArgs,
+    name: &str,
+    polygons: Polygons,
+    findings: &mut Vec<Finding>,
+    terminal: &mut Terminal,
+) -> Result<Option<(Surface, Designed, Structure)>, Failure> {
     let surface = match clean(polygons) {
         Ok((surface, more)) => {
             findings.extend(more);
@@ -77,45 +106,36 @@ pub(super) fn run(args: &DesignArgs, console: Console) -> Result<End, Failure> {
         }
         Err(more) => {
             findings.extend(more);
-            return Ok(refused(args, console, &findings));
+            return Ok(None);
         }
     };
     let (surface, missed) = followed(args, surface)?;
     findings.extend(missed);
-    let mut terminal = Terminal::new(console, None);
-    let result = design(&surface, &name, &wishes(args)?, &mut terminal);
-    terminal.finish();
-    let mut designed = match result {
+    let mut designed = match design(&surface, name, &wishes(args)?, terminal) {
         Ok(designed) => designed,
         Err(PlanariseError::Stopped(stopped)) => return Err(stopped.into()),
         Err(PlanariseError::Refused(more)) => {
             findings.extend(more);
-            return Ok(refused(args, console, &findings));
+            return Ok(None);
         }
     };
+    let draft = &mut designed.draft;
     if let Some(fix) = &args.fix {
-        designed.draft.fixed = Some(fix.nodes(&designed.draft));
+        draft.fixed = Some(fix.nodes(draft));
     }
+    draft.design.get_or_insert_default().insert("seed".to_owned(), args.seed.into());
     findings.extend(designed.findings.iter().cloned());
-    let structure = match Structure::new(designed.draft.clone(), &Tolerance::default()) {
+    let structure = match Structure::new(draft.clone(), &Tolerance::default()) {
         Ok((structure, _)) => structure,
         Err(more) => {
             findings.extend(more.findings);
-            return Ok(refused(args, console, &findings));
+            return Ok(None);
         }
     };
-    console.findings(&findings);
-    write(args, &surface, &designed, &structure)?;
-    console.say(&summary(&name, &designed.figures));
-    Ok(End::of(&findings))
-}
-
-fn refused(args: &DesignArgs, console: Console, findings: &[Finding]) -> End {
-    console.findings(findings);
-    if args.json {
-        print(&format!("{}\n", serde_json::json!({"findings": findings})));
+    if let Some(wanted) = &args.for_scale {
+        findings.push(at_scale::judged(&structure, wanted, terminal)?);
     }
-    End::Refused
+    Ok(Some((surface, designed, structure)))
 }
 
 fn read(args: &DesignArgs) -> Result<Read, Failure> {
@@ -280,9 +300,6 @@ fn write(
     }
     if let Some(path) = &args.picture {
         to_disk(path, &design_picture(surface, designed).map_err(Failure::of)?)?;
-    }
-    if args.json {
-        print(&format!("{}\n", report(&designed.figures, &designed.findings)));
     }
     Ok(())
 }

@@ -1,6 +1,7 @@
 //! The command: what was typed, what is read and written, what is said.
 
 mod advise;
+mod at_scale;
 mod check;
 mod console;
 mod coupon;

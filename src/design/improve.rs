@@ -10,13 +10,15 @@ use crate::watch::Watch;
 
 /// Weights tried for even cells, in the order of what they cost: of torsal directions as a
 /// share of their own, and of even spacing.
-const EVENER: [[f64; 2]; 8] = [
+const EVENER: [[f64; 2]; 10] = [
     [1.0, 3.0],
     [1.0, 10.0],
     [0.3, 1.0],
     [0.3, 3.0],
     [0.3, 10.0],
-    [0.3, 18.0],
+    [0.3, 14.0],
+    [0.2, 5.0],
+    [0.2, 10.0],
     [0.1, 3.0],
     [0.1, 10.0],
 ];

@@ -586,3 +586,23 @@ fn a_symmetric_surface_gets_a_symmetric_mesh() {
     let asked = Wishes { symmetry: true, ..plain.clone() };
     assert_eq!(sound(&hill, &asked).draft, sound(&hill, &plain).draft);
 }
+
+#[test]
+fn a_design_is_judged_for_a_scale_and_a_material() {
+    let place = tempfile::tempdir().unwrap();
+    let codes = |scale: &str| {
+        let words = ["design", "hill", "--cell", "150", "--for", scale, "--json", "-q"];
+        let words = [&words[..], &["--seed", "7", "-o", "s.json"]].concat();
+        let output = finwright(place.path(), &words);
+        assert!(output.status.success());
+        let report: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+        let findings = report["findings"].as_array().unwrap().clone();
+        findings
+            .iter()
+            .map(|f| f["code"].as_str().unwrap().to_owned())
+            .collect::<Vec<_>>()
+    };
+    assert!(codes("1:1").contains(&"design::fits_scale".to_owned()));
+    assert!(codes("1:40,pmma-cast-3").contains(&"design::not_at_scale".to_owned()));
+    assert_eq!(json(&place.path().join("s.json"))["design"]["seed"], 7);
+}

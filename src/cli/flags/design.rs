@@ -1,6 +1,7 @@
 //! `design`.
 
-use crate::cli::flags::value::{axis_rule, cell, depth, fix};
+use crate::cli::at_scale::ForScale;
+use crate::cli::flags::value::{axis_rule, cell, depth, fix, for_scale};
 use crate::job::{Depth, Fix};
 use crate::structure::AxisRule;
 use crate::units::Unit;
@@ -86,6 +87,14 @@ pub struct DesignArgs {
     /// Let axes turn, by up to 13 degrees, for fins of more even length
     #[arg(long)]
     pub even: bool,
+
+    /// Say what `check` says of it at this model scale, in the default or another material
+    #[arg(long = "for", value_parser = for_scale, value_name = "1:N[,TEMPLATE]")]
+    pub for_scale: Option<ForScale>,
+
+    /// For the record: nothing is drawn at random here, and results do not depend on it
+    #[arg(long, default_value_t = 0, value_name = "N")]
+    pub seed: u64,
 
     /// How far fins reach along their axes, in mm of the surface [default: 0.35 of the wanted
     /// fin length on each side]

@@ -1,5 +1,6 @@
 //! Values of options, as they are typed.
 
+use crate::cli::at_scale::ForScale;
 use crate::geometry::{Point3, Vector3};
 use crate::job::{Depth, Fix, Scale};
 use crate::joint::Joint;
@@ -110,6 +111,12 @@ pub(super) fn length(text: &str) -> Result<f64, String> {
         Ok(mm) if (0.0..=1e6).contains(&mm) => Ok(mm),
         _ => Err(format!("{text:?} is no length in mm")),
     }
+}
+
+/// A scale, and the template if it is not the default.
+pub(super) fn for_scale(text: &str) -> Result<ForScale, String> {
+    let (one, template) = text.split_once(',').unwrap_or((text, "pmma-cast-3"));
+    Ok(ForScale { scale: scale(one)?, template: template.to_owned() })
 }
 
 /// One length for both, or two.
