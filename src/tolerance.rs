@@ -30,6 +30,9 @@ impl Default for Tolerance {
 /// Lengths below this are taken for nothing: nodes in one place, faces without area, mm.
 pub const NO_LENGTH_MM: f64 = 1e-6;
 
+/// Nodes nearer than this share of the median fin length, and not joined, were meant to be.
+pub const NEAR_SHARE: f64 = 0.01;
+
 /// Folds that differ by less count as equal, radians.
 pub const SAME_FOLD: f64 = 1e-6;
 

@@ -83,7 +83,13 @@ pub(super) struct Terminal {
     stop: Arc<AtomicBool>,
     threads: Option<NonZeroUsize>,
     until: Option<Instant>,
+    /// When the last line was said where there is no terminal for the bar, and whether one
+    /// is to be said at all.
+    said: Option<Instant>,
 }
+
+/// From one line of progress to the next where there is no terminal.
+const BETWEEN_LINES: Duration = Duration::from_secs(5);
 
 impl Terminal {
     /// Shows progress unless told to be quiet; Ctrl-C stops it from here on. A search is
@@ -100,7 +106,9 @@ impl Terminal {
             bar.set_style(style);
         }
         let until = limit.map(|limit| Instant::now() + Duration::from_secs_f64(limit));
-        Self { bar, stop, threads: console.threads, until }
+        let lines = !console.quiet && !std::io::stderr().is_terminal();
+        let said = lines.then(Instant::now);
+        Self { bar, stop, threads: console.threads, until, said }
     }
 
     /// Says beside the bar what has been found.
@@ -116,6 +124,10 @@ impl Terminal {
 
 impl Watch for Terminal {
     fn progress(&mut self, stage: &'static str, done: usize, total: usize) {
+        if self.said.is_some_and(|said| said.elapsed() >= BETWEEN_LINES) {
+            self.said = Some(Instant::now());
+            whisper(&format!("working: {stage}, {done} of {total}"));
+        }
         self.bar.set_message(stage);
         // A search by the clock has no number of trials to come.
         let total = if self.until.is_some() { total.min(done + 1) } else { total };

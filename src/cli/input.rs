@@ -6,7 +6,7 @@ use crate::cli::flags::value::EffortLevel;
 use crate::design::examples;
 use crate::diagnostic::{Finding, Located, Place};
 use crate::job::{Input, InputOptions, Specification};
-use crate::nest::Effort;
+use crate::nest::{Effort, Stock};
 use crate::settings::Settings;
 use crate::structure::ReadError;
 use crate::template::{self, Template, TemplateErrors};
@@ -96,8 +96,18 @@ pub(super) fn settings(args: &InputArgs) -> Result<Settings, InputError> {
         EffortLevel::Normal => 8,
         EffortLevel::Thorough => 64,
     };
-    let settings =
+    let mut settings =
         Settings::new(template(&args.template)?).with_hubs(args.hubs.iter().copied());
+    if !args.sheet.is_empty() {
+        // Margin and spacing belong to the machine.
+        let [margin, spacing] = settings
+            .stock
+            .first()
+            .map_or([5.0, 2.0], |sheet| [sheet.margin, sheet.spacing]);
+        let stock =
+            |&(size, count): &_| Stock { count, ..Stock::new(size, margin, spacing) };
+        settings.stock = args.sheet.iter().map(stock).collect();
+    }
     let effort = Effort { trials, seed: args.seed };
     Ok(Settings { joint: args.joint, effort, ..settings })
 }
@@ -114,6 +124,7 @@ pub(super) fn structure(args: &InputArgs) -> Result<Input, InputError> {
         scale: args.scale.clone(),
         depth: args.depth,
         fix: args.fix.clone(),
+        weld_mm: args.weld,
     };
     read(named, &reading)
 }

@@ -61,6 +61,7 @@ fn read(args: &PlanariseArgs) -> Result<Input, Failure> {
         units: args.units,
         axes: args.axes,
         fix: args.fix.clone(),
+        weld_mm: args.weld,
         ..InputOptions::default()
     };
     let mut input = input::read(&args.mesh, &reading)?;

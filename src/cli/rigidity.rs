@@ -15,7 +15,7 @@ use crate::rigidity::{
     self, Criteria, Fingerprint, Look, MOST_PAIRED, MOST_STEPS, Model, Pairing,
     RigidityFinding, SwayLimit, Verdict,
 };
-use crate::structure::Structure;
+use crate::structure::{Structure, blame_gaps};
 use crate::watch::{Stopped, Watch};
 use std::path::Path;
 
@@ -58,6 +58,7 @@ pub(super) fn run(args: &RigidityArgs, console: Console) -> Result<End, Failure>
     terminal.finish();
     let verdict = verdict?;
     case.findings.extend(verdict.findings().into_iter().map(Finding::from));
+    blame_gaps(&mut case.findings);
     console.findings(&case.findings);
     if args.input.json {
         print(&json::line(&verdict.entry(case.joint, true)).map_err(Failure::of)?);

@@ -13,7 +13,7 @@ use crate::parts::{self, Body, Making, Part, PartFinding, Plan, Step};
 use crate::rigidity::Verdict;
 use crate::settings::Settings;
 use crate::sheets::{self, Laying, Sheet};
-use crate::structure::{Draft, Structure};
+use crate::structure::{Draft, Structure, blame_gaps};
 use crate::tolerance::ARC_SAGITTA_MM;
 use crate::vendor::{self, Profile, Request, VendorSheets};
 use crate::watch::{Stopped, Watch};
@@ -82,6 +82,7 @@ pub fn fabricate(
     job.findings.extend(no_such_hub.map(Finding::from));
     let plan = plan(&structure, &job.settings);
     job.judge(&plan, watch)?;
+    blame_gaps(&mut job.findings);
     watch.progress("parts", 0, 1);
     let name = structure.name().to_owned();
     job.cut(plan);

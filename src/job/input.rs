@@ -2,9 +2,9 @@
 
 use crate::design::examples::Example;
 use crate::diagnostic::{Finding, Located, Place};
-use crate::geometry::Mesh;
+use crate::geometry::{Mesh, Vector3};
 use crate::structure::{
-    AxisRule, Draft, ObjOptions, ReadError, interop, read_json, read_obj,
+    AxisRule, Draft, ObjOptions, ReadError, area_vector, interop, read_json, read_obj,
 };
 use crate::tolerance::SAME_HEIGHT;
 use crate::units::Unit;
@@ -49,13 +49,22 @@ pub struct InputOptions {
     pub depth: Option<Depth>,
     /// Instead of the file's.
     pub fix: Option<Fix>,
+    /// Vertices of an OBJ file within this of each other become one node, mm of its size.
+    pub weld_mm: f64,
 }
 
 impl Default for InputOptions {
     /// As the file says, at full size.
     fn default() -> Self {
         let scale = Scale { text: "1:1".to_owned(), factor: 1.0 };
-        Self { units: None, axes: AxisRule::File, scale, depth: None, fix: None }
+        Self {
+            units: None,
+            axes: AxisRule::File,
+            scale,
+            depth: None,
+            fix: None,
+            weld_mm: 0.0,
+        }
     }
 }
 
@@ -124,6 +133,14 @@ enum InputNote {
         help("change \"units\" in the file, or use `--scale`; --units is for OBJ files")
     )]
     UnitsIgnored { file: String },
+
+    #[error("the mesh lies along the axes {axes} and across y: it may have y upward")]
+    #[diagnostic(
+        code(input::y_up),
+        severity(Warning),
+        help("try `--axes 0,1,0`, or export the mesh with z upward")
+    )]
+    YUp { axes: String },
 }
 
 impl Located for InputNote {
@@ -179,8 +196,10 @@ impl Input {
         // Names and comments may be in any alphabet; what counts in an OBJ file is ASCII.
         let text = String::from_utf8_lossy(bytes);
         let unit = reading.units.unwrap_or(Unit::Millimetre);
-        let (draft, notes) = read_obj(&text, &ObjOptions { unit, axes: reading.axes })?;
-        let findings = notes.into_iter().map(Finding::from).collect();
+        let options = ObjOptions { unit, axes: reading.axes, weld_mm: reading.weld_mm };
+        let (draft, notes) = read_obj(&text, &options)?;
+        let mut findings: Vec<Finding> = notes.into_iter().map(Finding::from).collect();
+        findings.extend(y_up(&draft, reading.axes).map(Finding::from));
         let draft = named(draft, file);
         Ok(Self::new(draft, (file, bytes, false), findings, reading))
     }
@@ -219,6 +238,20 @@ fn named(mut draft: Draft, file: &str) -> Draft {
         draft.name = file.rsplit_once('.').map_or(file, |(name, _)| name).to_owned();
     }
     draft
+}
+
+/// Whether parallel axes along z run through a mesh that is spread out across y.
+fn y_up(draft: &Draft, rule: AxisRule) -> Option<InputNote> {
+    let AxisRule::Parallel(axis) = rule else { return None };
+    let sound = |face: &&Vec<usize>| face.iter().all(|&k| k < draft.positions.len());
+    let areas = draft.faces.iter().filter(sound);
+    let areas = areas.map(|face| area_vector(&draft.positions, face).abs());
+    let [x, y, z]: [f64; 3] = areas.sum::<Vector3>().into();
+    let along_z = axis.z.abs() > axis.x.abs().max(axis.y.abs());
+    (along_z && y > x && y > 2.0 * z).then(|| {
+        let axes = [axis.x, axis.y, axis.z].map(|part| part.to_string()).join(",");
+        InputNote::YUp { axes }
+    })
 }
 
 fn units_ignored(file: &str, reading: &InputOptions) -> Vec<Finding> {

@@ -102,8 +102,8 @@ pub enum RigidityFinding {
     #[diagnostic(
         code(rigidity::flexible),
         help(
-            "a play of {pass_mm:.3} mm would pass; tighten the fit (`clearance_mm`), hold \
-             more nodes (`--fix`), or see `finwright rigidity --remedies`"
+            "{}; tighten the fit (`clearance_mm`), hold \
+             more nodes (`--fix`), or see `finwright rigidity --remedies`", would_pass(*pass_mm)
         )
     )]
     Flexible { play_mm: f64, node: NodeId, sway: String, limit_mm: f64, pass_mm: f64 },
@@ -116,7 +116,7 @@ pub enum RigidityFinding {
         code(rigidity::grey),
         severity(Warning),
         help(
-            "a play of {pass_mm:.3} mm would pass without doubt; tighten `clearance_mm`"
+            "{} without doubt; tighten `clearance_mm`", would_pass(*pass_mm)
         )
     )]
     Grey { play_mm: f64, node: NodeId, sway: String, limit_mm: f64, pass_mm: f64 },
@@ -156,6 +156,15 @@ pub enum RigidityFinding {
         )
     )]
     BadLimit { text: String },
+}
+
+/// Which play would pass, as far as three decimals show it.
+pub(super) fn would_pass(pass_mm: f64) -> String {
+    if pass_mm >= 0.001 {
+        format!("a play of {pass_mm:.3} mm would pass")
+    } else {
+        "hardly any play would pass".to_owned()
+    }
 }
 
 impl Located for RigidityFinding {

@@ -50,6 +50,10 @@ pub struct Sway {
 impl Sway {
     /// A sway there in mm, or in words where the model of small motions ends.
     pub(super) fn in_words(&self, bracket: Bracket, play: f64) -> String {
+        if !bracket.upper.is_finite() {
+            let low = bracket.lower * play;
+            return format!("at least {low:.2} mm, and nobody can tell how much at most");
+        }
         let (low, high) = (bracket.lower * play, bracket.upper * play);
         if low > self.span_mm / 10.0 {
             format!("more than a tenth of its span of {:.0} mm", self.span_mm)

@@ -4,7 +4,7 @@ use crate::ids::NodeId;
 use crate::joint::Joint;
 use crate::rigidity::amplify::Bracket;
 use crate::rigidity::criteria::Criteria;
-use crate::rigidity::finding::RigidityFinding;
+use crate::rigidity::finding::{RigidityFinding, would_pass};
 use crate::rigidity::mobility::{Mobility, mobility};
 use crate::rigidity::model::{Model, RigidBody};
 use crate::rigidity::paper::{Paper, paper};
@@ -336,13 +336,12 @@ impl Verdict {
                 format!("{name}: {mobility} motions without any resistance")
             }
             (Some(sway), _) => format!(
-                "{name}: node {} sways by {} for {} mm of play; the limit is {:.2} mm; up to \
-                 {:.3} mm of play would pass",
+                "{name}: node {} sways by {} for {} mm of play; the limit is {:.2} mm; {}",
                 sway.node,
                 sway.in_words(sway.bracket, self.play_mm),
                 self.play_mm,
                 sway.limit_mm,
-                self.play_to_pass().unwrap_or(0.0),
+                would_pass(self.play_to_pass().unwrap_or(0.0)),
             ),
             (None, _) => format!("{name}: nothing can move"),
         }

@@ -4,7 +4,7 @@ use crate::geometry::{DisjointSets, Mesh, Point3, trig};
 use crate::ids::{FaceId, FinId, NodeId};
 use crate::structure::draft::{Draft, area_vector};
 use crate::structure::finding::{FaceFault, StructureFinding};
-use crate::structure::{Node, Structure, surface};
+use crate::structure::{Node, Structure, surface, weld};
 use crate::tolerance::{FARTHEST_MM, NO_AXIS, NO_LENGTH_MM, Tolerance};
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -101,8 +101,15 @@ fn indices(draft: &Draft) -> Vec<StructureFinding> {
 
 /// Faces, edges and fins as a mesh; indices are in range.
 pub(super) fn mesh(draft: &Draft, mesh: &Mesh) -> Vec<StructureFinding> {
-    [faces(draft), surface::faults(mesh), fins(draft), families(draft), pieces(draft)]
-        .concat()
+    [
+        faces(draft),
+        surface::faults(mesh),
+        fins(draft),
+        families(draft),
+        weld::unjoined(draft),
+        pieces(draft),
+    ]
+    .concat()
 }
 
 fn faces(draft: &Draft) -> Vec<StructureFinding> {

@@ -157,6 +157,28 @@ pub enum StructureFinding {
     )]
     LooseNode { node: NodeId, count: usize },
 
+    #[error("nodes {} are at one place and not joined", listed(nodes))]
+    #[diagnostic(
+        code(structure::coincident_nodes),
+        help(
+            "join them with `--weld 0.01` (OBJ files: what is nearer than so many mm becomes \
+             one node), or merge the vertices in the modelling program"
+        )
+    )]
+    CoincidentNodes { nodes: Vec<NodeId> },
+
+    #[error("nodes {} and {} are {} mm apart and not joined", nodes[0], nodes[1], short(*off_mm))]
+    #[diagnostic(
+        code(structure::nodes_near),
+        severity(Warning),
+        help(
+            "if they are meant to be one, join them with `--weld {}` (OBJ files), or merge \
+             the vertices in the modelling program",
+            short(2.0 * off_mm)
+        )
+    )]
+    NodesNear { nodes: [NodeId; 2], off_mm: f64 },
+
     #[error("nodes {} and {} are {} mm apart", fin.ends()[0], fin.ends()[1], short(*length))]
     #[diagnostic(
         code(structure::short_fin),
@@ -257,6 +279,15 @@ pub enum StructureFinding {
     StripSplit { strip: StripId, meets: NodeId, node: NodeId },
 }
 
+/// Nodes as people list them: `5 and 16`.
+fn listed(nodes: &[NodeId]) -> String {
+    let (last, first) = nodes
+        .split_last()
+        .map_or((String::new(), &[][..]), |(last, first)| (last.to_string(), first));
+    let first: Vec<String> = first.iter().map(ToString::to_string).collect();
+    format!("{} and {last}", first.join(", "))
+}
+
 /// The place of an entry in its list; nothing for a list as a whole.
 fn ordinal(index: Option<usize>) -> String {
     index.map(|index| format!(" {index}")).unwrap_or_default()
@@ -277,6 +308,8 @@ pub enum FaceFault {
 impl Located for StructureFinding {
     fn place(&self) -> Place {
         match *self {
+            Self::CoincidentNodes { ref nodes } => Place::nodes(nodes.iter().copied()),
+            Self::NodesNear { nodes, .. } => Place::nodes(nodes),
             Self::Empty { .. }
             | Self::CountMismatch { .. }
             | Self::FamilyCount { .. }

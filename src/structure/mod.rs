@@ -19,6 +19,7 @@ mod read;
 mod sound;
 mod strips;
 mod surface;
+mod weld;
 
 pub use check::planarity;
 pub use crossing::FinTree;
@@ -30,6 +31,7 @@ pub use obj::{AxisRule, ObjOptions, read_obj, write_obj};
 pub use read::{ReadError, ReadNote};
 pub use sound::SoundDraft;
 pub use strips::Strip;
+pub use weld::blame_gaps;
 
 use crate::diagnostic::{Finding, passes, short};
 use crate::geometry::{Mesh, Point3, Vector3};
@@ -94,6 +96,7 @@ impl Structure {
         }
         findings.extend(collect(check::shape(&structure, tolerance)));
         findings.extend(collect(crossing::fins_that_cross(&structure)));
+        blame_gaps(&mut findings);
         Ok((structure, findings))
     }
 

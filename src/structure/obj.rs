@@ -8,6 +8,7 @@ use crate::geometry::{Point3, Vector3};
 use crate::structure::Structure;
 use crate::structure::draft::{Draft, area_vector};
 use crate::structure::read::{ReadError, ReadNote};
+use crate::structure::weld;
 use crate::tolerance::SAME_AXIS;
 use crate::units::Unit;
 
@@ -31,6 +32,9 @@ pub struct ObjOptions {
     pub unit: Unit,
     /// Where node axes come from.
     pub axes: AxisRule,
+    /// Vertices within this of an earlier one become that one, mm of the file's size; 0
+    /// joins none.
+    pub weld_mm: f64,
 }
 
 /// Faces and vertices as the file has them.
@@ -66,7 +70,9 @@ pub fn read_obj(
         let (vertices, other) = (mesh.positions.len(), mesh.other.len());
         return Err(ReadError::NoFaces { vertices, other });
     }
+    let welded = mesh.welded(options.weld_mm / options.unit.millimetres())?;
     let (axes, mut notes) = axes(&mesh, options.axes)?;
+    notes.extend(welded);
     let count = mesh.other.len();
     notes.extend(mesh.other.first().map(|&line| ReadNote::NotAFace { count, line }));
     let draft =
@@ -82,7 +88,7 @@ pub(super) fn logical_lines(text: &str) -> impl Iterator<Item = (usize, String)>
     let mut lines = text.lines().enumerate();
     std::iter::from_fn(move || {
         let (index, first) = lines.next()?;
-        let mut line = first.split('#').next().unwrap_or_default().trim_end().to_owned();
+        let mut line = without_comment(first).trim_end().to_owned();
         while line.ends_with('\\') {
             line.pop();
             line.push(' ');
@@ -90,6 +96,14 @@ pub(super) fn logical_lines(text: &str) -> impl Iterator<Item = (usize, String)>
         }
         Some((index + 1, line))
     })
+}
+
+/// What stands before `#`; in `1.#IND`, as old libraries wrote what was no number, it begins
+/// no comment.
+fn without_comment(line: &str) -> &str {
+    let comment =
+        line.char_indices().find(|&(at, c)| c == '#' && !line[..at].ends_with('.'));
+    comment.map_or(line, |(at, _)| &line[..at])
 }
 
 impl Mesh {
@@ -103,6 +117,46 @@ impl Mesh {
             _ => {}
         }
         Ok(())
+    }
+
+    /// Joins vertices that lie together; a face loses the corners that become one.
+    fn welded(&mut self, within: f64) -> Result<Option<ReadNote>, ReadError> {
+        let vertices = self.positions.len();
+        let numbers = if within > 0.0 {
+            weld::numbers(&self.positions, within)
+        } else {
+            (0..vertices).collect()
+        };
+        let nodes = numbers.iter().max().map_or(0, |last| last + 1);
+        if nodes == vertices {
+            return Ok(None);
+        }
+        let (positions, axes) = (self.positions.clone(), self.axes.clone());
+        self.axes = vec![None; nodes];
+        for (vertex, &node) in numbers.iter().enumerate().rev() {
+            self.positions[node] = positions[vertex];
+            let Some(axis) = axes.get(vertex).copied().flatten() else { continue };
+            match self.axes[node] {
+                Some(other) if !parallel(other, axis) => {
+                    return Err(ReadError::AxesOfWelded { node: vertex });
+                }
+                _ => self.axes[node] = Some(axis),
+            }
+        }
+        self.positions.truncate(nodes);
+        for face in &mut self.faces {
+            face.iter_mut().for_each(|corner| *corner = numbers[*corner]);
+            let mut merged = face.clone();
+            merged.dedup();
+            while merged.len() > 1 && merged.first() == merged.last() {
+                merged.pop();
+            }
+            // What is no face any more is said to be none.
+            if merged.len() >= 3 {
+                *face = merged;
+            }
+        }
+        Ok(Some(ReadNote::Welded { vertices, nodes }))
     }
 
     fn face<'a>(
@@ -142,7 +196,15 @@ pub(super) fn vector<'a>(
             let message = "three numbers are needed, found fewer".to_owned();
             return Err(ReadError::BadObj { line, message });
         };
-        word.parse::<f64>().map_err(|_| {
+        let number = word.parse::<f64>();
+        if number.as_ref().map_or(word.contains('#'), |number| !number.is_finite()) {
+            let message = format!(
+                "{} is what a program writes where it could not compute a number",
+                quoted(word)
+            );
+            return Err(ReadError::BadObj { line, message });
+        }
+        number.map_err(|_| {
             let comma = if word.contains(',') { " (write 1.5, not 1,5)" } else { "" };
             let message = format!("{} is no number{comma}", quoted(word));
             ReadError::BadObj { line, message }

@@ -58,6 +58,13 @@ pub enum ReadError {
     )]
     ConflictingAxes { line: usize, node: usize },
 
+    #[error("vertex {} of the file has another axis than one it would be joined to", node + 1)]
+    #[diagnostic(
+        code(read::axes_of_welded),
+        help("give both the same `vn`, or use `--axes normal` with `--weld`")
+    )]
+    AxesOfWelded { node: usize },
+
     #[error(
         "vertices without an axis: {missing} of {nodes}, the first is vertex {} of the file",
         node + 1
@@ -116,7 +123,9 @@ impl Located for ReadError {
         match *self {
             Self::BadJson { line, .. } | Self::BadObj { line, .. } => Place::line(line),
             Self::ConflictingAxes { line, node } => Place::line(line).at(node),
-            Self::MissingAxes { node, .. } => Place::nodes([node]),
+            Self::MissingAxes { node, .. } | Self::AxesOfWelded { node } => {
+                Place::nodes([node])
+            }
             _ => Place::default(),
         }
     }
@@ -162,6 +171,14 @@ pub enum ReadNote {
         help("only `v`, `vn` and `f` count; a strip or a fin needs faces beside it")
     )]
     NotAFace { count: usize, line: usize },
+
+    #[error("{vertices} vertices of the file became {nodes} nodes, numbered anew")]
+    #[diagnostic(
+        code(read::welded),
+        severity(Advice),
+        help("those nearer than `--weld` to an earlier one were joined to it")
+    )]
+    Welded { vertices: usize, nodes: usize },
 }
 
 impl Located for ReadNote {

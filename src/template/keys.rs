@@ -132,7 +132,22 @@ pub(crate) fn nearest<'a>(
 pub(super) fn syntax(source: &str, error: &toml::de::Error) -> TemplateFault {
     let end = error.span().map_or(0, |span| span.start.min(source.len()));
     let line = 1 + source.get(..end).unwrap_or_default().matches('\n').count();
-    TemplateFault::BadToml { line, message: error.message().to_owned() }
+    let text = source.lines().nth(line - 1).unwrap_or_default();
+    let comma = text.split_once('=').and_then(|(_, value)| decimal_comma(value));
+    let comma = comma.map(|(meant, found)| format!(" (write {meant}, not {found})"));
+    let message = format!("{}{}", error.message(), comma.unwrap_or_default());
+    TemplateFault::BadToml { line, message }
+}
+
+/// A number that begins a value and has a comma for its point, mended and as found.
+fn decimal_comma(value: &str) -> Option<(String, String)> {
+    let value = value.trim_start();
+    let is_in = |c: char| c.is_ascii_digit() || matches!(c, ',' | '+' | '-' | '.');
+    let found = &value[..value.find(|c| !is_in(c)).unwrap_or(value.len())];
+    let meant = found.replacen(',', ".", 1);
+    let is_number =
+        meant != found && !meant.contains(',') && meant.parse::<f64>().is_ok();
+    is_number.then(|| (meant, found.to_owned()))
 }
 
 /// Unknown and missing keys, wrong kinds, values out of range.

@@ -238,14 +238,86 @@ pub fn read(source: &str, name: &str) -> Result<Template, TemplateErrors> {
 
 /// The error for a template that is not there, with the nearest name that is.
 pub fn unknown_name(name: &str) -> TemplateErrors {
-    let nearest = nearest(name, names());
+    let nearest = likest(name);
     let fault = TemplateFault::UnknownName { found: name.to_owned(), nearest };
     TemplateErrors { name: name.to_owned(), faults: vec![fault] }
+}
+
+/// What people call the materials of the templates.
+const MATERIALS: [(&str, &str); 11] = [
+    ("acrylic", "pmma"),
+    ("acryl", "pmma"),
+    ("plexi", "pmma"),
+    ("plexiglas", "pmma"),
+    ("plexiglass", "pmma"),
+    ("perspex", "pmma"),
+    ("plywood", "ply"),
+    ("wood", "ply"),
+    ("cardboard", "card"),
+    ("paper", "card"),
+    ("extruded", "xt"),
+];
+
+/// The words and numbers of a name.
+fn words_and_numbers(name: &str) -> (Vec<String>, Vec<f64>) {
+    let name = name.to_lowercase().replace(',', ".");
+    let is_number = |c: char| c.is_ascii_digit() || c == '.';
+    let numbers = name.split(|c| !is_number(c)).filter_map(|number| number.parse().ok());
+    let words = name.split(|c: char| !c.is_alphabetic()).filter(|word| !word.is_empty());
+    let known = |word: &str| MATERIALS.iter().find(|(other, _)| *other == word);
+    let words = words.map(|word| known(word).map_or(word, |(_, known)| known).to_owned());
+    (words.collect(), numbers.collect())
+}
+
+/// The embedded template of most like material and thickness; the most alike in letters
+/// where names say neither.
+fn likest(name: &str) -> String {
+    let (words, numbers) = words_and_numbers(name);
+    let score = |known: &&str| {
+        let (theirs, thickness) = words_and_numbers(known);
+        let common = words.iter().filter(|word| theirs.contains(word)).count();
+        let off =
+            |a: &f64| thickness.iter().map(|b| (a - b).abs()).fold(f64::MAX, f64::min);
+        let off = numbers.iter().map(off).fold(f64::MAX, f64::min);
+        (common, -off)
+    };
+    let best = names().into_iter().map(|known| (score(&known), known));
+    // The first of equals: templates are listed in order of use.
+    let best = best.reduce(|a, b| if b.0 > a.0 { b } else { a });
+    match best {
+        Some(((common, off), known)) if common > 0 || off == 0.0 => known.to_owned(),
+        _ => nearest(name, names()),
+    }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn names_are_alike_in_material_and_thickness() {
+        let cases = [
+            ("pmma-3mm", "pmma-cast-3"),
+            ("acrylic 2 mm", "pmma-cast-2"),
+            ("plywood3", "birch-ply-3"),
+            ("mdf", "mdf-3"),
+            ("card-1,5", "card-1.5"),
+            ("pmma-cast-4", "pmma-cast-3"),
+            ("pmma-xt-2", "pmma-xt-1.5"),
+            ("pmma-cats-3", "pmma-cast-3"),
+        ];
+        for (typed, meant) in cases {
+            assert_eq!(likest(typed), meant, "{typed}");
+        }
+    }
+
+    #[test]
+    fn a_decimal_comma_is_said() {
+        let source = embedded("pmma-cast-3").unwrap();
+        let source = source.replace("thickness_mm = 3.0", "thickness_mm = 3,0");
+        let errors = read(&source, "mine").unwrap_err().to_string();
+        assert!(errors.contains("write 3.0, not 3,0"), "{errors}");
+    }
 
     #[test]
     fn every_embedded_template_can_be_read() {

@@ -121,7 +121,11 @@ impl Valid {
                 Err(_) => Outcome::Unread,
             },
             Kind::Obj => {
-                let options = ObjOptions { unit: Unit::Millimetre, axes: AxisRule::File };
+                let options = ObjOptions {
+                    unit: Unit::Millimetre,
+                    axes: AxisRule::File,
+                    weld_mm: 0.0,
+                };
                 match read_obj(text, &options) {
                     Ok((draft, _)) => self.make(draft, template),
                     Err(_) => Outcome::Unread,

@@ -92,7 +92,9 @@ fn block(code: &str, printed: &str) -> Option<String> {
         let first = line.trim_start().split(": ").next().unwrap_or_default();
         line.starts_with("  ") && first.contains("::") && !first.contains(' ')
     };
-    let lines: Vec<&str> = printed.lines().collect();
+    // What a slow machine says of its progress is not about the code.
+    let lines = printed.lines().filter(|line| !line.starts_with("working: "));
+    let lines: Vec<&str> = lines.collect();
     let end = lines.iter().position(|line| {
         is_help(line) && line.trim_start().starts_with(&format!("{code}: "))
     })?;

@@ -195,7 +195,7 @@ proptest! {
         let (read, _) = Structure::new(json.0, &Tolerance::default()).expect("it was sound");
         prop_assert_eq!(&meant, &read);
         prop_assert_eq!(text, write_json(&read));
-        let options = ObjOptions { unit: Unit::Millimetre, axes: AxisRule::File };
+        let options = ObjOptions { unit: Unit::Millimetre, axes: AxisRule::File, weld_mm: 0.0 };
         let (obj, found) = read_obj(&write_obj(&meant), &options).expect("we wrote it");
         prop_assert!(found.is_empty());
         let read = Mesh::new(obj.positions.len(), &obj.faces).expect("we wrote it");

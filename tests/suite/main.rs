@@ -14,6 +14,7 @@ mod golden;
 mod held;
 mod holes;
 mod laws;
+mod meshes;
 mod nest;
 mod peers;
 mod planarise;

@@ -41,7 +41,8 @@ fn tobj_reads_the_same_faces() {
     for name in ["mixed", "bricks"] {
         let path = format!("{}/fixtures/{name}.obj", env!("CARGO_MANIFEST_DIR"));
         let text = std::fs::read_to_string(path).unwrap();
-        let options = ObjOptions { unit: Unit::Millimetre, axes: AxisRule::File };
+        let options =
+            ObjOptions { unit: Unit::Millimetre, axes: AxisRule::File, weld_mm: 0.0 };
         let (draft, _) = read_obj(&text, &options).unwrap();
         let (ours, theirs) = (corners_by_us(&draft), corners_by_tobj(&text));
         assert!(!ours.is_empty(), "{name}");

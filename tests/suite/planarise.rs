@@ -226,7 +226,8 @@ fn exchange_forms_bring_the_axes_back() {
     let draft = made(wavy()).draft;
     let (structure, _) = Structure::new(draft.clone(), &Default::default()).unwrap();
     let mesh = |text: &str| {
-        let options = ObjOptions { unit: Unit::Millimetre, axes: AxisRule::Normal };
+        let options =
+            ObjOptions { unit: Unit::Millimetre, axes: AxisRule::Normal, weld_mm: 0.0 };
         read_obj(text, &options).unwrap().0
     };
     let [lower, upper] = interop::write_pair(&structure).map(|text| mesh(&text));
@@ -258,7 +259,8 @@ fn the_vault_still_comes_out_of_its_mesh() {
         let root = std::path::Path::new(env!("CARGO_MANIFEST_DIR"));
         std::fs::read_to_string(root.join("fixtures").join(name)).unwrap()
     };
-    let options = ObjOptions { unit: Unit::Millimetre, axes: AxisRule::File };
+    let options =
+        ObjOptions { unit: Unit::Millimetre, axes: AxisRule::File, weld_mm: 0.0 };
     let mut mesh =
         read_obj(&text("vault.obj"), &options).unwrap().0.with_depth(12.0, 12.0);
     mesh.axes = smoothed_axes(&mesh, 8);

@@ -28,7 +28,8 @@ fn codes(findings: &[Finding]) -> Vec<&str> {
 }
 
 fn obj(text: &str) -> Draft {
-    let options = ObjOptions { unit: Unit::Millimetre, axes: AxisRule::File };
+    let options =
+        ObjOptions { unit: Unit::Millimetre, axes: AxisRule::File, weld_mm: 0.0 };
     read_obj(text, &options).unwrap().0
 }
 

@@ -1,6 +1,6 @@
 //! `planarise`.
 
-use crate::cli::flags::value::{axis_rule, depth, fix, numbers};
+use crate::cli::flags::value::{axis_rule, depth, fix, length, numbers};
 use crate::design::planarise::{Options, WISHES, Weights, Wish};
 use crate::job::{Depth, Fix};
 use crate::structure::AxisRule;
@@ -62,6 +62,10 @@ pub struct PlanariseArgs {
     /// of its neighbours; strips then fold less
     #[arg(long, default_value_t = 0, value_name = "ROUNDS")]
     pub smooth: usize,
+
+    /// Vertices nearer than so many mm become one node
+    #[arg(long, default_value = "0", value_parser = length, value_name = "MM")]
+    pub weld: f64,
 
     /// How far fins reach along their axes, in mm [default: 0.35 of the median fin length on
     /// each side, or as the file says]

@@ -1,7 +1,9 @@
 //! `make` and `check`, and what all commands ask about a structure.
 
 use crate::cli::flags::planarise::PlanariseWhen;
-use crate::cli::flags::value::{EffortLevel, axis_rule, depth, fix, scale, seconds};
+use crate::cli::flags::value::{
+    EffortLevel, axis_rule, depth, fix, length, scale, seconds, sheet,
+};
 use crate::job::{Depth, Fix, Scale};
 use crate::joint::Joint;
 use crate::structure::AxisRule;
@@ -65,6 +67,16 @@ pub struct InputArgs {
     /// the file says, else boundary]
     #[arg(long, value_parser = fix)]
     pub fix: Option<Fix>,
+
+    /// Vertices of an OBJ file nearer than so many mm (at the file's size, before --scale)
+    /// become one node
+    #[arg(long, default_value = "0", value_parser = length, value_name = "MM")]
+    pub weld: f64,
+
+    /// Sheet of so many mm instead of those of the template, and how many there are; may be
+    /// given more than once
+    #[arg(long, value_name = "WxH[:COUNT]", value_parser = sheet)]
+    pub sheet: Vec<([f64; 2], Option<usize>)>,
 
     /// Whether fins that are not plane are made so by moving nodes and axes
     #[arg(long, value_enum, default_value = "auto", value_name = "WHEN")]

@@ -137,6 +137,17 @@ pub(super) fn size(text: &str) -> Result<[f64; 2], String> {
     }
 }
 
+/// A size of sheet, and how many there are.
+pub(super) fn sheet(text: &str) -> Result<([f64; 2], Option<usize>), String> {
+    let Some((size_text, count)) = text.split_once(':') else {
+        return size(text).map(|size| (size, None));
+    };
+    match count.parse() {
+        Ok(count) if count > 0 => Ok((size(size_text)?, Some(count))),
+        _ => Err(format!("{count:?} is no number of sheets; write 600x400:3 for three")),
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
