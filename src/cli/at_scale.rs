@@ -1,21 +1,15 @@
 //! `design --for`: what `check` says of a structure at a model scale and in a material.
 
 use crate::cli::console::Terminal;
+use crate::cli::flags::value::ForScale;
 use crate::cli::input;
 use crate::cli::outcome::Failure;
 use crate::diagnostic::{Finding, Located, Place, Severity};
-use crate::job::{self, Input, InputOptions, Scale, Specification};
+use crate::job::{self, Input, InputOptions, Specification};
 use crate::settings::Settings;
 use crate::structure::{Structure, write_json};
 use miette::Diagnostic;
 use thiserror::Error;
-
-/// A scale and a template.
-#[derive(Debug, Clone, PartialEq)]
-pub struct ForScale {
-    pub scale: Scale,
-    pub template: String,
-}
 
 #[derive(Debug, Error, Diagnostic)]
 enum ScaleFinding {

@@ -1,7 +1,6 @@
 //! `design`.
 
-use crate::cli::at_scale::ForScale;
-use crate::cli::flags::value::{axis_rule, cell, depth, fix, for_scale};
+use crate::cli::flags::value::{ForScale, axis_rule, cell, depth, fix, for_scale};
 use crate::job::{Depth, Fix};
 use crate::structure::AxisRule;
 use crate::units::Unit;

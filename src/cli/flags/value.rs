@@ -1,6 +1,5 @@
 //! Values of options, as they are typed.
 
-use crate::cli::at_scale::ForScale;
 use crate::geometry::{Point3, Vector3};
 use crate::job::{Depth, Fix, Scale};
 use crate::joint::Joint;
@@ -111,6 +110,13 @@ pub(super) fn length(text: &str) -> Result<f64, String> {
         Ok(mm) if (0.0..=1e6).contains(&mm) => Ok(mm),
         _ => Err(format!("{text:?} is no length in mm")),
     }
+}
+
+/// A scale and a template.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ForScale {
+    pub scale: Scale,
+    pub template: String,
 }
 
 /// A scale, and the template if it is not the default.
