@@ -104,6 +104,17 @@ enum DrawingNote {
     Doubled { count: usize, x: f64, y: f64 },
 
     #[error(
+        "{count} closed lines lie partly in another one and are left out; one begins at \
+         {x:.2}, {y:.2}"
+    )]
+    #[diagnostic(
+        code(read::drawing_crossing),
+        severity(Warning),
+        help("draw what is to be cut as outlines and holes that do not cross")
+    )]
+    Crossing { count: usize, x: f64, y: f64 },
+
+    #[error(
         "{count} cuts run over another cut of their part; one begins at {x:.2}, {y:.2}"
     )]
     #[diagnostic(
@@ -289,6 +300,8 @@ fn all_notes(drawn: &Drawn) -> Vec<DrawingNote> {
     let first = |points: &[Point2]| points.first().map(|p| (points.len(), p.x, p.y));
     let doubled = first(&drawn.doubled);
     notes.extend(doubled.map(|(count, x, y)| DrawingNote::Doubled { count, x, y }));
+    let crossing = first(&drawn.crossing);
+    notes.extend(crossing.map(|(count, x, y)| DrawingNote::Crossing { count, x, y }));
     let over = first(&drawn.over);
     notes.extend(over.map(|(count, x, y)| DrawingNote::Over { count, x, y }));
     let touching = first(&drawn.touching);

@@ -60,6 +60,8 @@ pub struct Drawn {
     pub shared: Vec<Point2>,
     /// A point of each line that lies on another one and is cut once.
     pub doubled: Vec<Point2>,
+    /// A point of each closed line left out because it lies partly in others.
+    pub crossing: Vec<Point2>,
     /// A point of each cut that runs over another one of its part.
     pub over: Vec<Point2>,
     /// A point of each hole that touches the outline or another hole.
@@ -222,8 +224,10 @@ fn sort(rings: &[Ring], drawn: &mut Drawn) -> Vec<Option<usize>> {
         drawn.parts.push(DrawnPart { outline, holes: Vec::new(), marks: Vec::new() });
     }
     for (k, ring) in rings.iter().enumerate().filter(|(k, _)| !is_outline(*k)) {
-        if let Some(part) = depths[k].first().and_then(|&outer| part_of[outer]) {
-            drawn.parts[part].holes.push(ring.turned(false));
+        match depths[k].first().and_then(|&outer| part_of[outer]) {
+            Some(part) => drawn.parts[part].holes.push(ring.turned(false)),
+            // It crosses others, or it would lie in none or in all that they lie in.
+            None => drawn.crossing.push(ring.contour.vertices[0].point),
         }
     }
     part_of
@@ -308,6 +312,14 @@ mod tests {
         let drawn = paths(&["M0 0h80v30h-80v-29.7", "M100 0h20v9h-20z", "M120 0h9v9h-9"]);
         assert_eq!((drawn.parts.len(), drawn.stray.len()), (1, 2));
         assert!((drawn.gaps[0].width - 0.3).abs() < 1e-9 && drawn.shared.len() == 1);
+    }
+
+    #[test]
+    fn a_ring_that_lies_partly_in_a_hole_is_told() {
+        let drawn =
+            paths(&["M0 0h90v90h-90z", "M20 20L190 50L20 80V50z", "M99 45h40v9h-40z"]);
+        let [part] = &drawn.parts[..] else { panic!("{drawn:?}") };
+        assert_eq!((part.holes.len(), drawn.crossing.len()), (1, 1));
     }
 
     #[test]

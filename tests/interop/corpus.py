@@ -32,8 +32,8 @@ from shapely.geometry import Point, Polygon
 JOINED = 0.01  # mm: ends this near are one
 SAGITTA = 0.01  # mm: how far flattened curves may be off
 ENGRAVED = ("engrav", "etch")
-# It says nothing of what is missing.
-NO_WORD = "does not say its unit"
+# They say nothing of what is missing.
+NO_WORD = ("does not say its unit", "fits no sheet", "cannot be placed")
 
 
 class Lines:
@@ -233,9 +233,8 @@ def same(ours, theirs):
 
 
 def finwright(binary, path, folder):
-    """What is read: measures, what is said, the exit code."""
-    command = [binary, "nest", path, "--sheet", "30000x30000", "--no-parts-in-holes", "--json"]
-    command += ["--effort", "quick", "-o", folder]
+    """What is read, what is said, the exit code; on a sheet without room nothing is searched."""
+    command = [binary, "nest", path, "--sheet", "10.01x10.01", "--json", "-o", folder]
     run = subprocess.run(command, capture_output=True, text=True, timeout=20, check=False)
     rings = []
     if run.stdout.startswith("{"):
@@ -260,7 +259,7 @@ def compared(binary, path, folder):
         return "no reference", f"{type(error).__name__}: {error} | {code} {first}"
     ours, theirs = measured(rings), measured(theirs)
     words = [line for line in said.splitlines() if line.startswith(("warning", "error"))]
-    words = [word for word in words if NO_WORD not in word]
+    words = [word for word in words if not any(n in word for n in NO_WORD)]
     line = f"exit {code}: {ours} and {theirs} {dict(lines.others)} | {' | '.join(words)[:400]}"
     if same(ours, theirs):
         return "agrees" if ours[0] else "nothing closed, told" if words else "silent", line
