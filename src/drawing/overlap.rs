@@ -16,6 +16,9 @@ struct Edge {
     is_mark: bool,
 }
 
+/// Edges near one that are looked at: where thousands lie in one place, some are enough.
+const MOST_NEAR: usize = 1000;
+
 /// Where edges (outline and holes) and cuts of a part run over each other, and where its edges
 /// touch one another.
 pub(super) fn meetings(
@@ -41,11 +44,8 @@ pub(super) fn meetings(
     let (mut over, mut touching) = (Vec::new(), Vec::new());
     for (k, edge) in edges.iter().enumerate() {
         let near = tree.locate_in_envelope_intersecting(around(&edge.ends));
-        let near: Vec<&Edge> = near
-            .into_iter()
-            .filter(|near| near.data < k)
-            .map(|near| &edges[near.data])
-            .collect();
+        let near = near.into_iter().take(MOST_NEAR).filter(|near| near.data < k);
+        let near: Vec<&Edge> = near.map(|near| &edges[near.data]).collect();
         if near.iter().any(|other| common(edge.ends, other.ends) > JOINED_MM) {
             over.push(edge.ends[0]);
         }

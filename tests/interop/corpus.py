@@ -132,10 +132,9 @@ def dxf(path):
     # Without a header ezdxf takes metres.
     says = b"$INSUNITS" in path.read_bytes()
     unit = document.header.get("$INSUNITS", 0) if says else 0
-    try:
-        scale = units.conversion_factor(unit, 4) if unit else 1.0
-    except TypeError:  # a unit that the reference does not know
-        scale = math.nan
+    mils = 9  # unknown to ezdxf
+    factor = 0.0254 if unit == mils else units.conversion_factor(unit, 4) if unit else 1.0
+    scale = float(factor)
     off = {
         layer.dxf.name.lower() for layer in document.layers if layer.is_off() or layer.is_frozen()
     }
