@@ -160,6 +160,10 @@ pub const SAME_SCALE: f64 = 2e-3;
 /// Fins whose corners differ by less have one shape, mm: a tenth of a common clearance.
 pub const CONGRUENT_MM: f64 = 0.01;
 
+/// Fins that leave a node nearer to each other than this lie upon each other, radians:
+/// plates would have to stop 570 times their thickness from the axis.
+pub const UPON_EACH_OTHER: f64 = 1.75e-3;
+
 /// Plates that reach into each other by less only touch, mm: rounding of planar fins.
 pub const PLATES_TOUCH_MM: f64 = 1e-3;
 

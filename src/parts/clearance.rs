@@ -4,7 +4,7 @@ use crate::ids::NodeId;
 use crate::parts::finding::PartFinding;
 use crate::parts::fit::Fit;
 use crate::parts::star::Star;
-use crate::tolerance::SAME_LENGTH_MM;
+use crate::tolerance::{SAME_LENGTH_MM, UPON_EACH_OTHER};
 
 /// Most of a fin that setbacks may take before it is said.
 const SETBACK_SHARE: f64 = 0.25;
@@ -22,8 +22,12 @@ pub(crate) fn sharp_angles(
         .filter(|&(_, angle)| angle < least)
         .map(|(place, angle)| {
             let next = (place + 1) % star.fins.len();
+            let fins = [place, next].map(|k| name(star.fins[k].index));
+            if angle < UPON_EACH_OTHER {
+                return PartFinding::UponEachOther { fins, node: star.node };
+            }
             PartFinding::AngleTooSmall {
-                fins: [place, next].map(|k| name(star.fins[k].index)),
+                fins,
                 node: star.node,
                 angle_deg: angle.to_degrees(),
                 setback_mm,

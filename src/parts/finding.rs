@@ -51,6 +51,16 @@ pub enum PartFinding {
         least_deg: f64,
     },
 
+    #[error("{} and {} leave node {node} in one direction", fins[0], fins[1])]
+    #[diagnostic(
+        code(parts::fin_angle_too_small),
+        help(
+            "are two nodes in one place, or a face folded back? Join the nodes, or turn the \
+             mesh's edges apart"
+        )
+    )]
+    UponEachOther { fins: [String; 2], node: NodeId },
+
     #[error(
         "{part} is {length_mm:.1} mm long and has {web_mm:.2} mm between the connectors of nodes \
          {} and {}",
@@ -161,7 +171,8 @@ fn some(parts: &[String]) -> String {
 impl Located for PartFinding {
     fn place(&self) -> Place {
         match self {
-            Self::AngleTooSmall { fins, node, .. } => {
+            Self::AngleTooSmall { fins, node, .. }
+            | Self::UponEachOther { fins, node } => {
                 Place { parts: fins.to_vec(), ..Place::nodes([*node]) }
             }
             Self::Touch { part, nodes, .. }

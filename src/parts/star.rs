@@ -6,6 +6,7 @@ use crate::parts::fit::Fit;
 use crate::parts::setback::setback;
 use crate::parts::unfold::unfold;
 use crate::structure::Structure;
+use crate::tolerance::UPON_EACH_OTHER;
 use std::collections::BTreeMap;
 use std::f64::consts::PI;
 
@@ -72,6 +73,11 @@ impl Star {
     /// A fin by its index in the structure.
     pub(crate) fn fin(&self, index: usize) -> Option<&IncidentFin> {
         self.fins.iter().find(|fin| fin.index == index)
+    }
+
+    /// Whether all its fins go their own ways, so that plates can hold them.
+    pub(crate) fn has_room(&self) -> bool {
+        self.sectors().into_iter().all(|angle| angle >= UPON_EACH_OTHER)
     }
 
     /// Angle from each fin to the next, counter-clockwise, radians.

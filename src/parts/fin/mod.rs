@@ -2,8 +2,11 @@
 
 mod seated;
 
+use crate::diagnostic::Finding;
 use crate::geometry::{Contour, Region};
+use crate::parts::clearance::sharp_angles;
 use crate::parts::connector::Connector;
+use crate::parts::finding::PartFinding;
 use crate::parts::fit::Fit;
 use crate::parts::part::{Body, FinBody, Part};
 use crate::parts::plan::Plan;
@@ -15,16 +18,21 @@ use crate::tolerance::CONGRUENT_MM;
 use seated::SeatedFin;
 use std::collections::BTreeMap;
 
-/// The plan of a structure of single fins: what holds them on each node that joins any.
+/// The plan of a structure of single fins: what holds them on each node that joins any. No
+/// plate can hold fins that lie upon each other.
 pub(super) fn plan(
     structure: &Structure,
     fit: &Fit,
     connector: &dyn Fn(Star) -> Box<dyn Connector>,
 ) -> Plan {
-    let stars = Star::all(structure, fit);
-    let connectors = stars.map(|star| (star.node, connector(star))).collect();
-    let (structure, findings) = (structure.clone(), Vec::new());
-    Plan { structure, strips: None, connectors, findings }
+    let (stars, without): (Vec<Star>, Vec<Star>) =
+        Star::all(structure, fit).partition(Star::has_room);
+    let name = |fin: usize| fin_name(fin, structure.fins().len());
+    let found = without.iter().flat_map(|star| sharp_angles(star, 0.0, &name, fit));
+    let found = found.filter(|fact| matches!(fact, PartFinding::UponEachOther { .. }));
+    let findings = found.map(Finding::from).collect();
+    let connectors = stars.into_iter().map(|star| (star.node, connector(star))).collect();
+    Plan { structure: structure.clone(), strips: None, connectors, findings }
 }
 
 /// The fins as parts.

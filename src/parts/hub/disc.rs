@@ -125,7 +125,7 @@ type Place = (Ray, f64, f64);
 
 /// Outward along a window, on its counter-clockwise side, as near to it as can be.
 fn beside(hub: &Hub, ray: Ray) -> Vec<Place> {
-    let steps = (hub.radius / STEP) as u32;
+    let steps = (hub.radius.min(MOST_INWARD) / STEP) as u32;
     // A little more than the gap, so that rounding does not take a place away.
     let aside = hub.width / 2.0 + GAP + STEP / 10.0;
     (0..steps).map(|k| (ray, hub.radius - f64::from(k) * STEP, aside)).collect()
@@ -140,7 +140,7 @@ fn anywhere(hub: &Hub) -> Vec<Place> {
         .zip(hub.star.fins.iter().map(|fin| fin.bearing))
         .collect();
     sectors.sort_by(|a, b| b.0.total_cmp(&a.0));
-    let steps = (hub.radius / STEP) as u32;
+    let steps = (hub.radius.min(MOST_INWARD) / STEP) as u32;
     let places = sectors.into_iter().flat_map(|(angle, start)| {
         [0.5, 0.4, 0.6, 0.3, 0.7].into_iter().flat_map(move |share| {
             // Across the middle of the sector, feet toward the axis.
@@ -153,6 +153,9 @@ fn anywhere(hub: &Hub) -> Vec<Place> {
 
 /// How finely places for letters are tried, mm.
 const STEP: f64 = 1.0;
+
+/// How far inward from the rim they are tried, mm: no sheet takes a larger disc.
+const MOST_INWARD: f64 = 2000.0;
 
 /// A rectangle on the disc.
 #[derive(Clone, Copy)]
