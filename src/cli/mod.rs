@@ -14,6 +14,7 @@ mod make;
 mod nest;
 mod nest_drawing;
 mod nest_input;
+mod nest_keys;
 mod nest_progress;
 mod outcome;
 mod picture;

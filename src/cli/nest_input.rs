@@ -1,5 +1,6 @@
 //! Parts and layouts from JSON (docs/nesting.md).
 
+use crate::cli::nest_keys::{self, NestKeyError};
 use crate::geometry::Point2;
 use crate::nest::{
     self, Layout, NestError, NestedSheet, Placement, Remnant, Rotations, Shape, Stock,
@@ -27,6 +28,10 @@ pub(super) enum NestInputError {
         help("see docs/nesting.md for the format")
     )]
     Bad { name: String, what: String },
+
+    #[error(transparent)]
+    #[diagnostic(transparent)]
+    Key(#[from] NestKeyError),
 }
 
 /// What is asked for.
@@ -219,6 +224,9 @@ pub(super) fn only(names: &[String]) -> Result<(), NestInputError> {
 }
 
 fn file(text: &str, name: &str) -> Result<File, NestInputError> {
+    if let Some(fault) = nest_keys::fault(text) {
+        return Err(fault.into());
+    }
     let file: File = serde_json::from_str(text)
         .map_err(|source| NestInputError::Json { name: name.to_owned(), source })?;
     let copies =
@@ -267,7 +275,13 @@ impl File {
                 let (x, y) = (p.x - by[0], p.y - by[1]);
                 Ok(Placement { shape, angle: p.angle_deg.to_radians(), x, y })
             };
-            all.push(sheet.placements.iter().map(placement).collect::<Result<_, _>>()?);
+            all.push(
+                sheet
+                    .placements
+                    .iter()
+                    .map(placement)
+                    .collect::<Result<_, NestInputError>>()?,
+            );
         }
         Ok(all)
     }

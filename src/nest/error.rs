@@ -39,7 +39,7 @@ pub enum NestError {
         severity(Warning),
         help("draw it as one closed line that neither crosses nor touches itself")
     )]
-    BadOutline { name: String, why: &'static str },
+    BadOutline { name: String, why: String },
 
     #[error("sheet {sheet} of the stock cannot be used: {why}")]
     #[diagnostic(
@@ -49,7 +49,7 @@ pub enum NestError {
              neither crosses nor touches another"
         )
     )]
-    BadRemnant { sheet: usize, why: &'static str },
+    BadRemnant { sheet: usize, why: String },
 
     #[error("the parts that are to stay where they are cannot: {fault}")]
     #[diagnostic(

@@ -20,29 +20,32 @@ pub fn outline_fault(shape: &Shape) -> Option<NestError> {
 }
 
 /// Why no layout could be checked with such an outline and its holes, if none could.
-pub(super) fn fault(
-    outline: &Vec<Point2>,
-    holes: &[Vec<Point2>],
-) -> Option<&'static str> {
+pub(super) fn fault(outline: &Vec<Point2>, holes: &[Vec<Point2>]) -> Option<String> {
     let rings = || std::iter::once(outline).chain(holes);
     let mut corners = rings().flatten();
     if corners.any(|p| !(p.x.abs() <= FARTHEST && p.y.abs() <= FARTHEST)) {
-        return Some("a coordinate is beyond 1,000,000 mm");
+        return Some("a coordinate is beyond 1,000,000 mm".into());
     }
     if rings().any(|ring| ring.len() < 3) {
-        return Some("it has fewer than three corners");
+        return Some("it has fewer than three corners".into());
     }
     if rings().any(|ring| area(ring) <= 0.0) {
-        return Some("it has no area");
+        return Some("it has no area".into());
     }
     if !rings().all(|ring| is_simple(ring)) {
-        return Some("a line crosses or touches itself");
+        return Some("a line crosses or touches itself".into());
     }
     let rings: Vec<_> = rings().collect();
     let edges = |k: usize| rings[k].iter().zip(rings[k].iter().cycle().skip(1));
     for hole in 1..rings.len() {
-        if !contains(rings[0], rings[hole][0]) {
-            return Some("a hole is outside of it");
+        let p = rings[hole][0];
+        let at = format!("hole {hole} at ({:.3}, {:.3})", p.x, p.y);
+        if !contains(rings[0], p) {
+            return Some(format!("{at} is outside of it"));
+        }
+        let others = (1..rings.len()).filter(|&other| other != hole);
+        if let Some(other) = others.into_iter().find(|&k| contains(rings[k], p)) {
+            return Some(format!("{at} is inside of hole {other}"));
         }
         let bounds = Rect::around(rings[hole]);
         for other in 0..hole {
@@ -52,7 +55,7 @@ pub(super) fn fault(
                 .into_iter()
                 .any(|(a, b)| edges(hole).any(|(c, d)| segments_meet(*a, *b, *c, *d)))
             {
-                return Some("a hole crosses or touches another line");
+                return Some(format!("{at} crosses or touches another line"));
             }
         }
     }
@@ -68,7 +71,7 @@ pub fn stock_fault(shapes: &[Shape], stock: &[Stock]) -> Option<NestError> {
             let Rect { min: low, max: high } = Rect::around(&remnant.outline);
             let fits = low.x >= 0.0 && low.y >= 0.0;
             let fits = fits && high.x <= stock.width && high.y <= stock.height;
-            (!fits).then_some("it reaches beyond its width and height")
+            (!fits).then(|| "it reaches beyond its width and height".into())
         });
         why.map(|why| NestError::BadRemnant { sheet: k + 1, why })
     };

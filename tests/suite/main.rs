@@ -16,6 +16,7 @@ mod holes;
 mod laws;
 mod meshes;
 mod nest;
+mod nest_keys;
 mod peers;
 mod planarise;
 mod plane;
