@@ -120,7 +120,8 @@ fn said(code: &str, fixture: &str) -> Said {
     let stage = code.split("::").next().unwrap_or_default();
     let could_not_run = ["input", "read", "template", "job"].contains(&stage)
         || is_linkage(fixture)
-        || code == "rigidity::pairing_too_large";
+        || ["rigidity::pairing_too_large", "surface::bad_ply", "surface::bad_stl"]
+            .contains(&code);
     match (severity.as_str(), could_not_run) {
         ("error", true) => assert_eq!(output.status.code(), Some(1), "{fixture}"),
         ("error", false) => assert_eq!(output.status.code(), Some(3), "{fixture}"),
