@@ -49,7 +49,8 @@ const FILE: [&str; 14] = [
     "unplaced",
     "parts",
 ];
-const SHEET: [&str; 13] = [
+/// Of a sheet, and of a piece of free space in a layout.json, which may be a sheet again.
+const SHEET: [&str; 14] = [
     "id",
     "width",
     "height",
@@ -58,6 +59,7 @@ const SHEET: [&str; 13] = [
     "cost",
     "outline",
     "holes",
+    "area",
     "placements",
     "files",
     "utilisation",

@@ -81,7 +81,14 @@ fn a_layout_given_back_is_read_with_all_its_keys() {
     assert_eq!(code, Some(0), "{said}");
     let (code, said, layout) = nested(&layout.unwrap());
     assert_eq!(code, Some(0), "{said}");
-    assert_eq!(layout.unwrap()["sheets"][0]["placements"].as_array().unwrap().len(), 3);
+    let layout = layout.unwrap();
+    assert_eq!(layout["sheets"][0]["placements"].as_array().unwrap().len(), 3);
+    // What is left of a sheet is a sheet for the next parts.
+    let mut again = file(json!([part("b", 50.0)]));
+    again["sheets"] = layout["sheets"][0]["free"].clone();
+    let (code, said, layout) = nested(&again);
+    assert_eq!(code, Some(0), "{said}");
+    assert_eq!(layout.unwrap()["sheets"][0]["placements"].as_array().unwrap().len(), 1);
 }
 
 #[test]
