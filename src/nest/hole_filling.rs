@@ -46,13 +46,14 @@ impl FilledHoles {
         seed: u64,
     ) -> Self {
         let mut filled = Self::none(shapes);
-        let has_holes = |&&part: &&usize| !shapes[part].holes.is_empty();
-        let hosts: Vec<usize> = order.iter().rev().filter(has_holes).copied().collect();
+        let spacing = stock.iter().map(|s| s.spacing).fold(0.0, f64::max);
+        let gate = gate(shapes, spacing);
+        let is_open =
+            |&&part: &&usize| open_holes(&shapes[part].holes, gate).next().is_some();
+        let hosts: Vec<usize> = order.iter().rev().filter(is_open).copied().collect();
         if hosts.is_empty() {
             return filled;
         }
-        let spacing = stock.iter().map(|s| s.spacing).fold(0.0, f64::max);
-        let gate = gate(shapes, spacing);
         // Few angles: along the sides of the hole, as a rule.
         let solid = shapes.iter().map(|shape| Shape {
             holes: Vec::new(),
