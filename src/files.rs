@@ -1,7 +1,10 @@
-//! The formats that sheets are written in, and where files stand in a job directory.
+//! The formats that sheets are written in, where files stand in a job directory, and the
+//! digest by which what they hold is known again.
 //!
 //! Who adds a format touches three places: its name here, its writer in
 //! [`export`](crate::export), its reader among those that [`proof`](crate::proof) lists.
+
+use sha2::{Digest, Sha256};
 
 /// Folder of the sheets.
 pub const SHEETS: &str = "sheets";
@@ -55,6 +58,11 @@ impl FileFormat {
         let ending = path.rsplit_once('.').map(|(_, ending)| ending);
         Self::CUT.iter().any(|format| ending == Some(format.name()))
     }
+}
+
+/// SHA-256 of what a file holds, hexadecimal.
+pub fn sha256(bytes: &[u8]) -> String {
+    Sha256::digest(bytes).iter().map(|byte| format!("{byte:02x}")).collect()
 }
 
 #[cfg(test)]

@@ -22,7 +22,8 @@ enum ScaleFinding {
     Fits { scale: String, template: String },
 
     #[error(
-        "at {scale} in {template} it cannot be cut: {count} errors, the first: {first}"
+        "at {scale} in {template} it cannot be cut: {count} {}, the first: {first}",
+        if *count == 1 { "error" } else { "errors" }
     )]
     #[diagnostic(
         code(design::not_at_scale),

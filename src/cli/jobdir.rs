@@ -1,9 +1,9 @@
 //! Job directories: written whole or not at all, and nothing of the user's is lost.
 
 use crate::export::File;
+use crate::files::sha256;
 use crate::job;
 use miette::Diagnostic;
-use sha2::{Digest, Sha256};
 use std::fmt;
 use std::fs;
 use std::io;
@@ -161,10 +161,6 @@ fn write_files(new: &Path, files: &[File]) -> io::Result<()> {
     }
     fs::create_dir_all(new)?;
     fs::write(new.join(SUMS), sums)
-}
-
-fn sha256(bytes: &[u8]) -> String {
-    Sha256::digest(bytes).iter().map(|byte| format!("{byte:02x}")).collect()
 }
 
 /// Puts `new` at `dir`. What the user has there is never in one place only: if this is

@@ -2,6 +2,7 @@
 
 use crate::design::examples::Example;
 use crate::diagnostic::{Finding, Located, Place};
+use crate::files::sha256;
 use crate::geometry::{Mesh, Vector3};
 use crate::structure::{
     AxisRule, Draft, ObjOptions, ReadError, area_vector, interop, read_json, read_obj,
@@ -9,7 +10,6 @@ use crate::structure::{
 use crate::tolerance::SAME_HEIGHT;
 use crate::units::Unit;
 use miette::Diagnostic;
-use sha2::{Digest, Sha256};
 use thiserror::Error;
 
 /// A structure as read.
@@ -218,10 +218,13 @@ impl Input {
         if let Some(fix) = &reading.fix {
             draft.fixed = (*fix != Fix::Boundary).then(|| fix.nodes(&draft));
         }
-        let hex =
-            Sha256::digest(bytes).iter().map(|byte| format!("{byte:02x}")).collect();
         let (name, scale) = (name.to_owned(), reading.scale.text.clone());
-        Self { draft, origin: Origin { name, sha256: hex, scale }, lists_fins, findings }
+        Self {
+            draft,
+            origin: Origin { name, sha256: sha256(bytes), scale },
+            lists_fins,
+            findings,
+        }
     }
 }
 

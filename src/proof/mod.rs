@@ -32,7 +32,7 @@ pub use figures::{NodeFigure, PartFigure, SlitFigure};
 pub use finding::{ProofFinding, Spot};
 
 use crate::diagnostic::{Finding, Place, passes};
-use crate::files::{FileFormat, ORDER, PREVIEW, SHEETS};
+use crate::files::{FileFormat, ORDER, PREVIEW, SHEETS, sha256};
 use crate::manifest::{self, Limits, Manifest, ProofEntry, Worst};
 use crate::structure::{AxisRule, Structure, read_json};
 use crate::tolerance::Tolerance;
@@ -41,7 +41,6 @@ use files::formats;
 use lines::differences;
 use miette::Diagnostic;
 use serde::Serialize;
-use sha2::{Digest, Sha256};
 use sheets::{Files, Read};
 use std::collections::{BTreeMap, BTreeSet};
 use thiserror::Error;
@@ -159,8 +158,7 @@ pub fn prove(files: &JobFiles) -> Result<Proof, ProofError> {
     let mut proof = Proof { limits: manifest.proof.limits, ..Proof::default() };
     let written = manifest.proof.files.as_ref();
     for (path, bytes) in files.iter().filter(|(path, _)| is_proved(path)) {
-        let digest: String =
-            Sha256::digest(bytes).iter().map(|byte| format!("{byte:02x}")).collect();
+        let digest = sha256(bytes);
         if written.is_some_and(|files| files.get(path).is_some_and(|was| *was != digest))
         {
             facts.push(ProofFinding::FileChanged { spot: Spot::file(path) });

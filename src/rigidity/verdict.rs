@@ -1,5 +1,6 @@
 //! Rigid, grey, flexible or mechanism.
 
+use crate::files::sha256;
 use crate::ids::NodeId;
 use crate::joint::Joint;
 use crate::rigidity::amplify::Bracket;
@@ -17,7 +18,6 @@ use crate::structure::{Structure, write_json};
 use crate::tolerance::FORCE_BALANCE;
 use crate::watch::{Stopped, Watch};
 use serde::{Deserialize, Serialize};
-use sha2::{Digest, Sha256};
 
 /// The modes that decide where to look.
 const LEAST_MODES: usize = 8;
@@ -37,12 +37,12 @@ impl Fingerprint {
     ) -> Self {
         let (structure, hubs) = (write_json(structure), format!("{hub_nodes:?}"));
         let hubs = (!hub_nodes.is_empty()).then_some(hubs.as_str());
-        let mut hash = Sha256::new();
+        let mut text = Vec::new();
         for part in [structure.as_str(), joint.name(), template].into_iter().chain(hubs) {
-            hash.update((part.len() as u64).to_le_bytes());
-            hash.update(part.as_bytes());
+            text.extend((part.len() as u64).to_le_bytes());
+            text.extend(part.as_bytes());
         }
-        Self(hash.finalize().iter().map(|byte| format!("{byte:02x}")).collect())
+        Self(sha256(&text))
     }
 
     /// Of something that will never be cut.

@@ -11,10 +11,10 @@ pub use error::{TemplateErrors, TemplateFault};
 pub use keys::PROFILES;
 pub(crate) use keys::nearest;
 
+use crate::files::sha256;
 use crate::ids::NodeId;
 use crate::tolerance::{PROOF_LIMIT_DEG, PROOF_LIMIT_MM};
 use serde::Deserialize;
-use sha2::{Digest, Sha256};
 
 /// What a job is cut from, on and for.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
@@ -191,7 +191,7 @@ const EMBEDDED: [(&str, &str); 7] = [
 impl Template {
     /// SHA-256 of its text, hexadecimal.
     pub fn sha256(&self) -> String {
-        Sha256::digest(&self.source).iter().map(|byte| format!("{byte:02x}")).collect()
+        sha256(self.source.as_bytes())
     }
 }
 
